@@ -1,0 +1,42 @@
+//! moorline: the mooring line that a ship simulator plugs in.
+//!
+//! The map of the house. Each layer knows only what stands above it in this list:
+//! `error`, `algebra`, `scene`, `rod`, `solve`, `report`, `cli`.
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+/// Command line: one function per command. Uses everything, used by nothing.
+pub mod cli;
+/// Every failure as data, and the only file that words it.
+pub mod error;
+
+/// Numbers only: shape functions, quadrature, block-tridiagonal systems. No mooring.
+pub mod algebra {
+    pub mod block_tridiagonal;
+    pub mod polynomial;
+    pub mod shape;
+}
+
+/// What the user said: plain data, read and checked. No nodes, no steps.
+pub mod scene {
+    pub mod check;
+    pub mod read;
+    pub mod types;
+}
+
+/// The discrete line: elements and the loads on them. No time steps, no files.
+pub mod rod {
+}
+
+/// Statics and time.
+pub mod solve {
+    pub mod motion;
+    pub mod simulation;
+}
+
+/// What a run leaves behind: tables and a page to look at.
+pub mod report {
+    pub mod page;
+    pub mod record;
+    pub mod tables;
+}

@@ -1,0 +1,3 @@
+//! The command `moorline`.
+
+fn main() {}

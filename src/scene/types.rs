@@ -1,0 +1,443 @@
+//! The scene as the user writes it: plain data with units, defaults and the texts of the JSON Schema.
+//!
+//! Axes: right-handed, z up, still water at z = 0, seabed at z = -depth. SI units; angles in degrees only where a
+//! name ends in `_deg`. Arc length runs unstretched from the fairlead (0) to the anchor (L).
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A position, velocity or offset (x, y, z).
+pub type Triple = [f64; 3];
+
+/// A moorline scene: environment, line types, lines, fairlead motion and run settings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Free text, shown in the report.
+    #[serde(default)]
+    pub title: String,
+    /// Water, seabed and gravity.
+    pub environment: Environment,
+    /// Line types by name; sections refer to them.
+    pub line_types: BTreeMap<String, LineType>,
+    /// The mooring lines, each independent of the others.
+    pub lines: Vec<Line>,
+    /// Motion of the fairleads. Default: fixed.
+    #[serde(default)]
+    pub motion: Motion,
+    /// Duration and output interval.
+    #[serde(default)]
+    pub run: Run,
+    /// Scheme, tolerance and step limits.
+    #[serde(default)]
+    pub solver: Solver,
+}
+
+/// Water, seabed and gravity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Environment {
+    /// Acceleration of gravity [m/s²], > 0. Default 9.80665.
+    #[serde(default = "standard_gravity")]
+    pub gravity: f64,
+    /// Density of the water [kg/m³], ≥ 0. Default 1025.
+    #[serde(default = "sea_water_density")]
+    pub water_density: f64,
+    /// Depth of the water at x = y = 0 [m], > 0: the seabed lies at z = -depth.
+    pub depth: f64,
+    /// The seabed's resistance. Default: see each field.
+    #[serde(default)]
+    pub seabed: Seabed,
+    /// Current profile: velocity at rising or falling z, piecewise linear, held constant outside the table. Default: none.
+    #[serde(default)]
+    pub current: Vec<CurrentPoint>,
+    /// Waves. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waves: Option<Waves>,
+    /// What the water surface does to a line. Default `pierced`.
+    #[serde(default)]
+    pub surface: Surface,
+}
+
+/// The seabed as a bed of springs on which a line lies.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Seabed {
+    /// Normal stiffness [N/m per metre of line per metre of penetration, Pa], > 0. Default: for each line type its
+    /// submerged weight per length / diameter (of a type that does not sink: its weight in air / diameter).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
+    /// Normal damping [Pa·s], ≥ 0; it pushes only. Default 0.
+    #[serde(default)]
+    pub damping: f64,
+    /// Coulomb friction coefficient [-], ≥ 0. Default 0.
+    #[serde(default)]
+    pub friction: f64,
+    /// Rise of the bed along +x and +y [deg], each within ±45: z = -depth + x tan(a) + y tan(b). Default [0, 0].
+    #[serde(default)]
+    pub slope_deg: [f64; 2],
+}
+
+/// One row of the current profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CurrentPoint {
+    /// Height of the row [m], up from still water.
+    pub z: f64,
+    /// Velocity of the water there [m/s].
+    pub velocity: Triple,
+}
+
+/// Waves by linear theory in finite depth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Waves {
+    /// One regular wave: elevation a·cos(k(x cos b + y sin b) - w t + phase).
+    Regular {
+        /// Amplitude [m].
+        amplitude: f64,
+        /// Period [s].
+        period: f64,
+        /// Direction of travel from +x towards +y [deg].
+        #[serde(default)]
+        direction_deg: f64,
+        /// Phase at the origin at t = 0 [deg].
+        #[serde(default)]
+        phase_deg: f64,
+        /// Time over which the amplitude is eased in [s]. Default: one period.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        ramp: Option<f64>,
+    },
+    /// A JONSWAP sea.
+    Jonswap {
+        /// Significant wave height [m].
+        hs: f64,
+        /// Peak period [s].
+        tp: f64,
+        /// Peak enhancement [-].
+        #[serde(default = "jonswap_gamma")]
+        gamma: f64,
+        /// Seed of the random phases.
+        #[serde(default)]
+        seed: u64,
+        /// Number of components.
+        #[serde(default = "jonswap_components")]
+        components: usize,
+        /// Direction of travel from +x towards +y [deg].
+        #[serde(default)]
+        direction_deg: f64,
+        /// Time over which the amplitude is eased in [s]. Default: one peak period.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        ramp: Option<f64>,
+    },
+    /// A list of regular components.
+    Components {
+        /// The components.
+        components: Vec<WaveComponent>,
+        /// Time over which the amplitude is eased in [s]. Default: the longest period.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        ramp: Option<f64>,
+    },
+}
+
+/// One component of a sea.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WaveComponent {
+    /// Amplitude [m].
+    pub amplitude: f64,
+    /// Period [s].
+    pub period: f64,
+    /// Direction of travel from +x towards +y [deg].
+    #[serde(default)]
+    pub direction_deg: f64,
+    /// Phase at the origin at t = 0 [deg].
+    #[serde(default)]
+    pub phase_deg: f64,
+}
+
+/// What the water surface does to a line.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// Above the water a line has its weight in air and no buoyancy, drag, added mass or wave load.
+    #[default]
+    Pierced,
+    /// Water everywhere, as in the 1994 report.
+    None,
+}
+
+/// Properties of a kind of chain, rope or pipe, per unstretched length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LineType {
+    /// Axial stiffness EA [N], > 0.
+    pub ea: f64,
+    /// Mass per length in air, contents excluded [kg/m], > 0.
+    pub mass: f64,
+    /// Diameter on which drag and added mass act [m], > 0.
+    pub diameter: f64,
+    /// Weight in water [N/m]; may be zero or negative. Give this or `buoyancy` or neither (then the buoyancy of `diameter`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub submerged_weight: Option<f64>,
+    /// Buoyancy in water [N/m], ≥ 0. Give this or `submerged_weight` or neither.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub buoyancy: Option<f64>,
+    /// Bending stiffness EI [N·m²], ≥ 0. Default 0. A line without bending stiffness carries no compression.
+    #[serde(default)]
+    pub ei: f64,
+    /// Morison drag coefficients. Default: normal 0, tangential 0.
+    #[serde(default)]
+    pub drag: NormalTangential,
+    /// Added-mass coefficients on (pi/4)·diameter². Default: normal 0, tangential 0.
+    #[serde(default)]
+    pub added_mass: NormalTangential,
+    /// Kelvin–Voigt time constant of axial damping [s], ≥ 0: T = EA(e + damping·de/dt). Default 0.
+    #[serde(default)]
+    pub damping: f64,
+    /// Rising (strain, tension [N]) points that replace `ea` beyond the linear law. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension_strain: Option<Vec<[f64; 2]>>,
+    /// Breaking load [N], > 0: a warning is given where the tension exceeds it. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub breaking_load: Option<f64>,
+    /// Fluid inside a pipe. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inner_fluid: Option<InnerFluid>,
+}
+
+/// A coefficient across and along the line.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NormalTangential {
+    /// Across the line [-], ≥ 0. Drag: on `diameter`. Default 0.
+    #[serde(default)]
+    pub normal: f64,
+    /// Along the line [-], ≥ 0. Drag: on pi·`diameter`. Default 0.
+    #[serde(default)]
+    pub tangential: f64,
+}
+
+/// Fluid inside a pipe.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InnerFluid {
+    /// Density [kg/m³], ≥ 0.
+    pub density: f64,
+    /// Inner area [m²], ≥ 0.
+    pub area: f64,
+}
+
+/// One mooring line from fairlead to anchor. Both ends are pinned.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// Name, unique in the scene. Default: `line1`, `line2`, … by position.
+    #[serde(default)]
+    pub name: String,
+    /// Position of the fairlead at the start [m].
+    pub fairlead: Triple,
+    /// Position of the anchor [m].
+    pub anchor: Triple,
+    /// Sections from fairlead to anchor, at least one.
+    pub sections: Vec<Section>,
+    /// Clump weights and buoys. Default: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attachments: Vec<Attachment>,
+}
+
+/// A stretch of one line type.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// Name of a line type.
+    #[serde(rename = "type")]
+    pub line_type: String,
+    /// Unstretched length [m], > 0.
+    pub length: f64,
+    /// Number of equal elements, ≥ 1. Default: chosen by the program to meet the tolerance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements: Option<usize>,
+}
+
+/// A clump weight or buoy on the line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Attachment {
+    /// Arc length from the fairlead [m].
+    pub s: f64,
+    /// Mass [kg].
+    #[serde(default)]
+    pub mass: f64,
+    /// Displaced volume [m³].
+    #[serde(default)]
+    pub volume: f64,
+    /// Drag coefficient times area [m²].
+    #[serde(default)]
+    pub drag_area: f64,
+    /// Added mass [kg].
+    #[serde(default)]
+    pub added_mass: f64,
+}
+
+/// Motion of the fairleads.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Motion {
+    /// The fairleads stay where the scene puts them.
+    #[default]
+    Fixed,
+    /// Offset sine·sin(wt) + cosine·cos(wt), w = 2 pi/period, times xi²(3 - 2 xi), xi = t/ramp, until `ramp` seconds.
+    Sinusoidal {
+        /// Period [s], > 0.
+        period: f64,
+        /// Amplitudes of the sine part [m]. Default 0.
+        #[serde(default)]
+        sine: Triple,
+        /// Amplitudes of the cosine part [m]. Default 0.
+        #[serde(default)]
+        cosine: Triple,
+        /// Length of the ramp [s], ≥ 0; 0 = none. Default: 3.25 periods.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        ramp: Option<f64>,
+    },
+    /// Absolute positions from a CSV file with columns t,x,y,z[,vx,vy,vz]; C1 interpolation.
+    File {
+        /// Path of the file, relative to the scene file.
+        path: String,
+    },
+}
+
+/// Duration and output interval of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// Simulated time [s], ≥ 0. Default 120.
+    #[serde(default = "default_duration")]
+    pub duration: f64,
+    /// Interval of `timeseries.csv` [s], > 0. Default 0.1.
+    #[serde(default = "default_output_step")]
+    pub output_step: f64,
+}
+
+/// Scheme, tolerance and step limits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Solver {
+    /// Time integration scheme. Default `adams-moulton`.
+    #[serde(default)]
+    pub scheme: Scheme,
+    /// Relative accuracy aimed for in the end tension, between 1e-8 and 0.1. Default 1e-3.
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// Longest time step [s], > 0. Default 0.5.
+    #[serde(default = "default_max_step")]
+    pub max_step: f64,
+    /// Time step without step control [s], > 0. Default: none, the step is controlled.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fixed_step: Option<f64>,
+    /// Law of extension. Default `exact`.
+    #[serde(default)]
+    pub stretch: Stretch,
+    /// Strain from the hydrostatic pressure on the wall, as in the 1994 report. Default false.
+    #[serde(default)]
+    pub hydrostatic_strain: bool,
+}
+
+/// Time integration schemes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// Converged trapezoidal Adams–Moulton steps with error control; L-stable steps where the line snaps.
+    #[default]
+    AdamsMoulton,
+    /// L-stable diagonally implicit Runge–Kutta of order 3 with error control.
+    Esdirk3,
+    /// Generalised alpha with spectral radius 0.6.
+    GeneralizedAlpha,
+    /// The 1994 report's own one-solve step, for reproduction.
+    #[serde(rename = "cable-1994")]
+    Cable1994,
+}
+
+/// Laws of extension.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stretch {
+    /// T = EA(|r'| - 1), Hooke in engineering strain.
+    #[default]
+    Exact,
+    /// r'·r' = 1 + 2 T/EA with the force T r', the 1994 report's law.
+    Report,
+}
+
+fn standard_gravity() -> f64 {
+    9.80665
+}
+fn sea_water_density() -> f64 {
+    1025.0
+}
+fn jonswap_gamma() -> f64 {
+    3.3
+}
+fn jonswap_components() -> usize {
+    200
+}
+fn default_duration() -> f64 {
+    120.0
+}
+fn default_output_step() -> f64 {
+    0.1
+}
+fn default_tolerance() -> f64 {
+    1.0e-3
+}
+fn default_max_step() -> f64 {
+    0.5
+}
+
+impl Default for Run {
+    fn default() -> Self {
+        Run { duration: default_duration(), output_step: default_output_step() }
+    }
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Solver {
+            scheme: Scheme::default(),
+            tolerance: default_tolerance(),
+            max_step: default_max_step(),
+            fixed_step: None,
+            stretch: Stretch::default(),
+            hydrostatic_strain: false,
+        }
+    }
+}
+
+impl LineType {
+    /// Buoyancy per length [N/m] in water of density `rho` [kg/m³]: as given, or from the submerged weight, or of `diameter`.
+    pub fn buoyancy_per_length(&self, rho: f64, gravity: f64) -> f64 {
+        match (self.buoyancy, self.submerged_weight) {
+            (Some(buoyancy), _) => buoyancy,
+            (None, Some(weight)) => self.mass * gravity - weight,
+            (None, None) => rho * gravity * std::f64::consts::FRAC_PI_4 * self.diameter * self.diameter,
+        }
+    }
+
+    /// Weight in water per length [N/m], negative where the line floats.
+    pub fn weight_in_water(&self, rho: f64, gravity: f64) -> f64 {
+        match self.submerged_weight {
+            Some(weight) => weight,
+            None => self.mass * gravity - self.buoyancy_per_length(rho, gravity),
+        }
+    }
+}
+
+impl Line {
+    /// Unstretched length [m].
+    pub fn length(&self) -> f64 {
+        self.sections.iter().map(|section| section.length).sum()
+    }
+}
