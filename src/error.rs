@@ -28,7 +28,7 @@ pub enum Error {
         /// Place in the scene, such as `lines[0].sections[1]`; may be empty.
         place: String,
         /// What is wrong there.
-        problem: Problem,
+        problem: Box<Problem>,
     },
     /// A `--set` cannot be applied, or makes the scene unreadable.
     #[error("{file}, --set {setting}{}: {problem}", at_place(.place))]
@@ -40,7 +40,7 @@ pub enum Error {
         /// Place inside the value given, where the value is a list or an object; may be empty.
         place: String,
         /// What is wrong.
-        problem: Problem,
+        problem: Box<Problem>,
     },
     /// A value of the scene is not allowed.
     #[error("{file}, {place}: {value} is not allowed: {allowed}")]
@@ -55,33 +55,8 @@ pub enum Error {
         allowed: String,
     },
     /// A line is too short for the distance of its ends.
-    #[error(
-        "{file}, {place} \"{line}\": {length:.1} m of line do not reach from fairlead {} to anchor {}, {distance:.1} m away, without \
-         {:.1} % stretch; {limit}. Lengthen a section by at least {lengthen} m, or move the anchor closer.",
-        point(.fairlead), point(.anchor), .stretch * 100.0
-    )]
-    Reach {
-        /// The file.
-        file: String,
-        /// Place in the scene, such as `lines[0]`.
-        place: String,
-        /// Name of the line.
-        line: String,
-        /// Unstretched length [m].
-        length: f64,
-        /// Position of the fairlead [m].
-        fairlead: [f64; 3],
-        /// Position of the anchor [m].
-        anchor: [f64; 3],
-        /// Distance of the two [m].
-        distance: f64,
-        /// Mean strain needed to reach [-].
-        stretch: f64,
-        /// Which limit that passes.
-        limit: Limit,
-        /// Length that is missing [m], rounded up.
-        lengthen: f64,
-    },
+    #[error(transparent)]
+    Reach(Box<Reach>),
     /// The scene asks for something that this version does not support.
     #[error("{file}, {place}: this version of moorline does not support {feature}")]
     Unsupported {
@@ -152,7 +127,7 @@ impl Error {
             | Error::Json { .. }
             | Error::Set { .. }
             | Error::Value { .. }
-            | Error::Reach { .. }
+            | Error::Reach(_)
             | Error::Unsupported { .. } => 2,
             Error::Statics { .. } | Error::Step { .. } => 3,
             Error::Interrupted { .. } => 130,
@@ -248,6 +223,36 @@ pub enum Problem {
     },
 }
 
+/// A line too short for the distance of its ends.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "{file}, {place} \"{line}\": {length:.1} m of line do not reach from fairlead {} to anchor {}, {distance:.1} m away, without \
+     {:.1} % stretch; {limit}. Lengthen a section by at least {lengthen} m, or move the anchor closer.",
+    point(.fairlead), point(.anchor), .stretch * 100.0
+)]
+pub struct Reach {
+    /// The file.
+    pub file: String,
+    /// Place in the scene, such as `lines[0]`.
+    pub place: String,
+    /// Name of the line.
+    pub line: String,
+    /// Unstretched length [m].
+    pub length: f64,
+    /// Position of the fairlead [m].
+    pub fairlead: [f64; 3],
+    /// Position of the anchor [m].
+    pub anchor: [f64; 3],
+    /// Distance of the two [m].
+    pub distance: f64,
+    /// Mean strain needed to reach [-].
+    pub stretch: f64,
+    /// Which limit that passes.
+    pub limit: Limit,
+    /// Length that is missing [m], rounded up.
+    pub lengthen: f64,
+}
+
 /// What a stretched line cannot take.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Limit {
@@ -266,7 +271,7 @@ pub enum Limit {
 
 /// The known name that looks most like `name`, if one looks like it at all.
 pub fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
-    let allowed = 1 + name.chars().count() / 3;
+    let allowed = (name.chars().count() + 1) / 3;
     let ranked = known.iter().map(|candidate| (edits(name, candidate), candidate));
     ranked.filter(|(distance, _)| *distance <= allowed).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
 }
@@ -307,8 +312,8 @@ pub fn among(name: &str, known: &[String]) -> String {
 fn indices(length: usize) -> String {
     match length {
         0 => String::from("the list is empty; set the whole list as JSON"),
-        1 => String::from("the list has 1 entry, number 0"),
-        _ => format!("the list has {length} entries, numbers 0 to {}", length - 1),
+        1 => String::from("the list has 1 entry, index 0"),
+        _ => format!("the list has {length} entries, indices 0 to {}", length - 1),
     }
 }
 

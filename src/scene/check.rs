@@ -3,9 +3,9 @@
 //! What passes can be computed: every number is finite and of the right sign, every name means something, every line can reach.
 //! Numbers beyond 1e15 in size, and positive ones below 1e-12, are taken for slips: products of them would leave the range of f64.
 
-use crate::error::{Error, Limit, among};
+use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;
-use crate::scene::types::{Environment, Line, LineType, Motion, NormalTangential, Scene, Scheme, Triple};
+use crate::scene::types::{Line, LineType, Motion, NormalTangential, Scene, Scheme, Triple};
 
 /// Largest size of any number.
 const LARGEST: f64 = 1.0e15;
@@ -100,7 +100,7 @@ fn water_density(scene: &Scene, file: &str) -> Result<(), Error> {
 }
 
 fn depth(scene: &Scene, file: &str) -> Result<(), Error> {
-    positive(file, "environment.depth", scene.environment.depth, "m; the seabed lies at z = -depth")
+    positive(file, "environment.depth", scene.environment.depth, "m: the seabed lies at z = -depth")
 }
 
 fn seabed(scene: &Scene, file: &str) -> Result<(), Error> {
@@ -109,7 +109,7 @@ fn seabed(scene: &Scene, file: &str) -> Result<(), Error> {
         positive(file, "environment.seabed.stiffness", stiffness, "Pa; leave it out for the line's weight / diameter")?;
     }
     not_negative(file, "environment.seabed.damping", seabed.damping, "Pa·s")?;
-    not_negative(file, "environment.seabed.friction", seabed.friction, "a Coulomb coefficient")
+    not_negative(file, "environment.seabed.friction", seabed.friction, "")
 }
 
 fn slope(scene: &Scene, file: &str) -> Result<(), Error> {
@@ -175,8 +175,8 @@ fn line_type_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
         not_negative(file, &at("ei"), line_type.ei, "N·m²")?;
         not_negative(file, &at("damping"), line_type.damping, "s")?;
         for (key, NormalTangential { normal, tangential }) in [("drag", line_type.drag), ("added_mass", line_type.added_mass)] {
-            not_negative(file, &at(&format!("{key}.normal")), normal, "a coefficient")?;
-            not_negative(file, &at(&format!("{key}.tangential")), tangential, "a coefficient")?;
+            not_negative(file, &at(&format!("{key}.normal")), normal, "")?;
+            not_negative(file, &at(&format!("{key}.tangential")), tangential, "")?;
         }
         if let Some(load) = line_type.breaking_load {
             positive(file, &at("breaking_load"), load, "N")?;
@@ -295,7 +295,7 @@ fn ends_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
         for (end, at) in [("fairlead", line.fairlead), ("anchor", line.anchor)] {
             let place = format!("lines[{index}].{end}");
             finite(file, &place, &at)?;
-            if below_bed(&scene.environment, at) {
+            if scene.environment.is_below_bed(at) {
                 let bed = number(scene.environment.bed_height(at[0], at[1]));
                 return refuse(
                     file,
@@ -334,7 +334,7 @@ fn motion_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
     let dip = rise(sine).hypot(rise(cosine));
     for (index, line) in scene.lines.iter().enumerate() {
         let [x, y, z] = line.fairlead;
-        if below_bed(environment, [x, y, z - dip]) {
+        if environment.is_below_bed([x, y, z - dip]) {
             let clearance = number(z - environment.bed_height(x, y));
             let value = format!("an amplitude of {} m towards the seabed", number(dip));
             return refuse(
@@ -390,7 +390,7 @@ fn reach(scene: &Scene, file: &str) -> Result<(), Error> {
             Limit::Doubles => 1.0,
         };
         if !(stretch <= allowed * (1.0 + 1.0e-9)) {
-            return Err(Error::Reach {
+            return Err(Error::Reach(Box::new(Reach {
                 file: file.into(),
                 place: format!("lines[{index}]"),
                 line: line.name.clone(),
@@ -401,7 +401,7 @@ fn reach(scene: &Scene, file: &str) -> Result<(), Error> {
                 stretch,
                 limit,
                 lengthen: rounded_up(distance / (1.0 + allowed) - length),
-            });
+            })));
         }
     }
     Ok(())
@@ -452,14 +452,6 @@ pub fn motion_table(scene: &Scene, table: &Table, path: &str) -> Vec<String> {
     warnings
 }
 
-/// Whether a point lies below the bed; one exactly on it, up to rounding, does not.
-pub(super) fn below_bed(environment: &Environment, at: Triple) -> bool {
-    let bed = environment.bed_height(at[0], at[1]);
-    let [a, b] = environment.seabed.slope_deg.map(|slope| slope.to_radians().tan());
-    let size = environment.depth.abs() + at[2].abs() + (at[0] * a).abs() + (at[1] * b).abs();
-    !(at[2] >= bed - 1.0e-9 * size)
-}
-
 /// All sections with their places.
 fn sections(scene: &Scene) -> impl Iterator<Item = (String, &crate::scene::types::Section)> {
     scene.lines.iter().enumerate().flat_map(|(line, of)| {
@@ -471,18 +463,23 @@ fn in_type(name: &str, key: &str) -> String {
     format!("line_types.{name}.{key}")
 }
 
+/// Greater than 0; `unit` ends the message and may go on with a remedy.
 fn positive(file: &str, place: &str, value: f64, unit: &str) -> Result<(), Error> {
-    if value > 0.0 && (SMALLEST..=LARGEST).contains(&value) {
-        return Ok(());
+    if !(value > 0.0) {
+        return refuse(file, place, number(value), format!("it must be greater than 0 {unit}").trim_end());
     }
-    refuse(file, place, number(value), format!("it must be greater than 0 (between {SMALLEST:e} and {LARGEST:e}) [{unit}]"))
+    if !(SMALLEST..=LARGEST).contains(&value) {
+        return refuse(file, place, number(value), format!("it must lie between {SMALLEST:e} and {LARGEST:e} {unit}").trim_end());
+    }
+    Ok(())
 }
 
+/// 0 or greater; `unit` ends the message.
 fn not_negative(file: &str, place: &str, value: f64, unit: &str) -> Result<(), Error> {
-    if (0.0..=LARGEST).contains(&value) {
-        return Ok(());
+    if !(value >= 0.0) {
+        return refuse(file, place, number(value), format!("it must be 0 or greater, {unit}").trim_end_matches([',', ' ']));
     }
-    refuse(file, place, number(value), format!("it must be 0 or greater (at most {LARGEST:e}) [{unit}]"))
+    finite(file, place, &[value])
 }
 
 fn finite(file: &str, place: &str, values: &[f64]) -> Result<(), Error> {
@@ -496,8 +493,9 @@ fn refuse(file: &str, place: impl Into<String>, value: impl Into<String>, allowe
     Err(Error::Value { file: file.into(), place: place.into(), value: value.into(), allowed: allowed.into() })
 }
 
-/// A number as a user would write it.
+/// A number as a user would write it, without the last digits that come from rounding.
 fn number(value: f64) -> String {
+    let value = format!("{value:.11e}").parse().unwrap_or(value);
     if value == 0.0 || (1.0e-4..1.0e7).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }
 
@@ -533,6 +531,7 @@ mod tests {
     fn numbers_are_written_as_a_user_would() {
         assert_eq!(number(-130.0), "-130");
         assert_eq!(number(5.0e8), "5e8");
+        assert_eq!(number(1327.3300774999998), "1327.3300775");
         assert_eq!(number(f64::NAN), "NaN");
     }
 }

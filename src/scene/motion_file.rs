@@ -7,7 +7,6 @@
 //! in the middle, ((2h₀ + h₁) d₀ − h₀ d₁)/(h₀ + h₁) at the first row, mirrored at the last; two rows give the straight line.
 
 use crate::error::Error;
-use crate::scene::check::below_bed;
 use crate::scene::read::{decode, read_bytes};
 use crate::scene::types::{Environment, Triple};
 use std::path::Path;
@@ -65,7 +64,7 @@ pub fn parse(text: &str, file: &str, environment: &Environment) -> Result<Table,
         }
         let row = at.row(&fields)?;
         at.follows(&row, rows.last())?;
-        if below_bed(environment, row.position) {
+        if environment.is_below_bed(row.position) {
             let bed = environment.bed_height(row.position[0], row.position[1]);
             at.refuse(format!("z = {}", row.position[2]), format!("it lies below the seabed, which is at z = {bed} m there"))?;
         }
@@ -73,7 +72,10 @@ pub fn parse(text: &str, file: &str, environment: &Environment) -> Result<Table,
     }
     if rows.len() < 2 {
         let at = At { file, line: text.lines().count().max(1) };
-        at.refuse(format!("a file of {} rows", rows.len()), "a motion needs at least 2 rows t,x,y,z[,vx,vy,vz]".into())?;
+        at.refuse(
+            String::from(if rows.is_empty() { "a file without rows" } else { "a file of 1 row" }),
+            "a motion needs at least 2 rows t,x,y,z[,vx,vy,vz]".into(),
+        )?;
     }
     let times: Vec<f64> = rows.iter().map(|row| row.time).collect();
     let positions: Vec<Triple> = rows.iter().map(|row| row.position).collect();
@@ -104,8 +106,8 @@ impl At<'_> {
     fn columns(&self, fields: &[&str], expected: usize) -> Result<(), Error> {
         let hint = if fields.len() == 1 && fields[0].contains([';', '\t', ' ']) { "; commas stand between them" } else { "" };
         let count = match fields.len() {
-            1 => String::from("1 column"),
-            count => format!("{count} columns"),
+            1 => String::from("a line of 1 column"),
+            count => format!("a line of {count} columns"),
         };
         if fields.len() != 4 && fields.len() != 7 {
             return self.refuse(count, format!("it must be 4 columns t,x,y,z or 7 columns t,x,y,z,vx,vy,vz{hint}"));
@@ -123,7 +125,7 @@ impl At<'_> {
         match fields.iter().zip(&COLUMNS).position(|pair| !known(pair)) {
             Some(wrong) => self.refuse(
                 format!("column {} \"{}\"", wrong + 1, fields[wrong]),
-                format!("the columns must be t,x,y,z or t,x,y,z,vx,vy,vz in this order; here stands {}", COLUMNS[wrong]),
+                format!("the columns must be t,x,y,z or t,x,y,z,vx,vy,vz in this order; this one is {}", COLUMNS[wrong]),
             ),
             None => Ok(()),
         }

@@ -101,7 +101,7 @@ pub(super) fn decode(bytes: Vec<u8>, file: &str) -> Result<String, Error> {
         let valid = error.utf8_error().valid_up_to();
         let start = String::from_utf8_lossy(&error.as_bytes()[..valid]);
         let (line, column) = place::line_and_column(&start, start.len());
-        Error::Json { file: file.into(), line, column, place: String::new(), problem: Problem::NotUtf8 }
+        Error::Json { file: file.into(), line, column, place: String::new(), problem: Problem::NotUtf8.into() }
     })
 }
 
@@ -110,21 +110,25 @@ fn json(text: &str, file: &str) -> Result<Value, Error> {
     let start = text.trim_start();
     let at = |offset: usize, place: Place, problem: Problem| {
         let (line, column) = place::line_and_column(text, offset);
-        Error::Json { file: file.into(), line, column, place: place.to_string(), problem }
+        Error::Json { file: file.into(), line, column, place: place.to_string(), problem: problem.into() }
     };
     if start.is_empty() {
         return Err(at(text.len(), Place::default(), Problem::Empty));
     }
-    if !start.starts_with(['{', '[', '"', '<', '/']) {
+    if !start.starts_with(['{', '[', '"', '<', '/', '#']) {
         let (line, _) = place::line_and_column(text, text.len() - start.len());
         let feature = String::from("CABLE input files; a scene is a JSON object and begins with {");
         return Err(Error::Unsupported { file: file.into(), place: format!("line {line}"), feature });
     }
-    let value = serde_json::from_str(text).map_err(|error| {
+    let value: Value = serde_json::from_str(text).map_err(|error| {
         let line_start = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum::<usize>();
         let offset = (line_start + error.column().saturating_sub(1)).min(text.len());
         at(offset, place::place_at(text, offset), syntax(&error, text, offset))
     })?;
+    if !value.is_object() {
+        let found = plain_found(if value.is_array() { "sequence" } else { "a text" });
+        return Err(at(text.len() - start.len(), Place::default(), Problem::Type { found, expected: plain_expected("a map") }));
+    }
     match place::duplicate_key(text) {
         None => Ok(value),
         Some(twice) => {
@@ -183,11 +187,16 @@ impl Source<'_> {
         let cause = cause.or_else(|| latest.find(|set| offset.is_none() && !place.0.is_empty() && place.holds(&set.place)));
         if let Some(set) = cause {
             let within = place.inside(&set.place);
-            return Error::Set { file: self.file.into(), setting: set.typed.clone(), place: within.to_string(), problem };
+            return Error::Set {
+                file: self.file.into(),
+                setting: set.typed.clone(),
+                place: within.to_string(),
+                problem: problem.into(),
+            };
         }
         let start = self.text.len() - self.text.trim_start().len();
         let (line, column) = place::line_and_column(self.text, offset.unwrap_or(start));
-        Error::Json { file: self.file.into(), line, column, place: place.to_string(), problem }
+        Error::Json { file: self.file.into(), line, column, place: place.to_string(), problem: problem.into() }
     }
 }
 

@@ -266,6 +266,7 @@ pub struct Line {
     pub sections: Vec<Section>,
     /// Clump weights and buoys. Default: none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
     pub attachments: Vec<Attachment>,
 }
 
@@ -504,6 +505,13 @@ impl Environment {
     pub fn bed_height(&self, x: f64, y: f64) -> f64 {
         let [a, b] = self.seabed.slope_deg.map(|slope| slope.to_radians().tan());
         -self.depth + x * a + y * b
+    }
+
+    /// Whether a point lies below the bed; one exactly on it, up to rounding, does not, and NaN does.
+    pub fn is_below_bed(&self, at: Triple) -> bool {
+        let [a, b] = self.seabed.slope_deg.map(|slope| slope.to_radians().tan());
+        let size = self.depth.abs() + at[2].abs() + (at[0] * a).abs() + (at[1] * b).abs();
+        !(at[2] >= self.bed_height(at[0], at[1]) - 1.0e-9 * size)
     }
 }
 

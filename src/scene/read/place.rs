@@ -3,10 +3,12 @@
 //! serde knows the place of a wrong value but not its line once `--set` has been at work; this scan of the text finds it.
 //! It also sees what serde_json lets pass: a key that stands twice in one object.
 
-use serde_json::Value;
 use std::collections::HashMap;
 use std::fmt;
 use std::ops::ControlFlow;
+
+/// Steps of a place that a message shows; no place of a scene has more.
+const SHOWN: usize = 12;
 
 /// One step from an object or a list to what it holds.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,19 +45,14 @@ impl Place {
     pub fn inside(&self, outer: &Place) -> Place {
         Place(self.0.get(outer.0.len()..).unwrap_or_default().to_vec())
     }
-
-    /// What stands at this place of a scene.
-    pub fn find<'a>(&self, scene: &'a Value) -> Option<&'a Value> {
-        self.0.iter().try_fold(scene, |value, step| match step {
-            Step::Key(key) => value.get(key),
-            Step::Index(index) => value.get(index),
-        })
-    }
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (number, step) in self.0.iter().enumerate() {
+            if number == SHOWN {
+                return f.write_str("…");
+            }
             match step {
                 Step::Index(index) => write!(f, "[{index}]")?,
                 Step::Key(key)
