@@ -2,6 +2,7 @@
 //!
 //! What passes can be computed: every number is finite and of the right sign, every name means something, every line can reach.
 //! Numbers beyond 1e15 in size, and positive ones below 1e-12, are taken for slips: products of them would leave the range of f64.
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
 use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;

@@ -5,6 +5,7 @@
 //! neighbouring rows, exact for constant acceleration and of second order else, for any spacing:
 //!     vᵢ = (h₁ d₀ + h₀ d₁)/(h₀ + h₁),   h₀ = tᵢ − tᵢ₋₁,  h₁ = tᵢ₊₁ − tᵢ,  d₀ = (xᵢ − xᵢ₋₁)/h₀,  d₁ = (xᵢ₊₁ − xᵢ)/h₁
 //! in the middle, ((2h₀ + h₁) d₀ − h₀ d₁)/(h₀ + h₁) at the first row, mirrored at the last; two rows give the straight line.
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
 use crate::error::Error;
 use crate::scene::read::{decode, read_bytes};
