@@ -21,6 +21,7 @@ pub mod algebra {
 /// What the user said: plain data, read and checked. No nodes, no steps.
 pub mod scene {
     pub mod check;
+    pub mod motion_file;
     pub mod read;
     pub mod types;
 }
