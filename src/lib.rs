@@ -54,14 +54,15 @@ pub mod solve {
     pub mod controller;
     pub mod esdirk;
     pub mod generalized_alpha;
-    pub mod motion;
     pub mod meshing;
+    pub mod motion;
     pub mod newton;
     pub mod outputs;
     pub mod scheme;
+    pub mod simulation;
+    pub mod snapshot;
     pub mod start;
     pub mod statics;
-    pub mod simulation;
 }
 
 /// What a run leaves behind: tables and a page to look at.
