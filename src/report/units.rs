@@ -26,7 +26,9 @@ impl ForceUnit {
 
     /// A force [N] as a number of this unit, without the symbol.
     pub fn number(&self, force: f64) -> String {
-        format!("{:.*}", self.decimals, force / self.newtons)
+        let text = format!("{:.*}", self.decimals, force / self.newtons);
+        // What rounds to zero has no sign.
+        if text.bytes().all(|byte| b"-0.".contains(&byte)) { text.replace('-', "") } else { text }
     }
 
     /// A force [N] with the symbol.
@@ -67,6 +69,7 @@ mod tests {
         assert_eq!(ForceUnit::for_largest(1_329_610.0).show(1_329_610.0), "1329.6 kN");
         assert_eq!(ForceUnit::for_largest(2.05e7).show(1.0e6), "1.000 MN");
         assert_eq!(ForceUnit::for_largest(66.7).show(-66.7), "-66.700 N");
+        assert_eq!(ForceUnit::for_largest(1.0e6).number(-1.0e-9), "0.0");
         assert_eq!(ForceUnit::for_largest(f64::NAN).symbol, "N");
     }
 

@@ -57,10 +57,12 @@ function historyPlot(host, quantity, now, setTime) {
       ...curves.map(curve => ({ label: curve.label, stroke: css(curve.color), width: 1.5, value: (u, v) => quantity.text(v), points: { show: false } }))],
     hooks: { draw: [marker], ready: [u => setTimeout(() => legendAt(u, now()), 0)] },
   }, [data.time, ...curves.map(curve => curve.values)], host);
+  // A press without a drag chooses the time.
+  const across = event => event.clientX - plot.over.getBoundingClientRect().left;
   let pressed = null;
-  plot.over.addEventListener("mousedown", event => { pressed = event.offsetX; });
+  plot.over.addEventListener("mousedown", event => { pressed = event.button === 0 ? across(event) : null; });
   plot.over.addEventListener("mouseup", event => {
-    if (pressed !== null && Math.abs(event.offsetX - pressed) < 4 && event.button === 0) setTime(plot.posToVal(event.offsetX, "x"));
+    if (pressed !== null && Math.abs(across(event) - pressed) < 4) setTime(plot.posToVal(across(event), "x"));
     pressed = null;
   });
   // uPlot empties the legend when the pointer leaves; it then tells of the time of the shapes again.

@@ -211,8 +211,9 @@ class Shape {
     const seen = (level, far) => Math.abs(level - far) < 0.6 * size;
     if (seen(Math.min(...bed), height[0])) height[0] = Math.min(height[0], ...bed);
     if (seen(0, height[1])) height[1] = Math.max(height[1], 0);
-    this.sideView = fit(width, u, pad(height, 0.07, 0.02 * size), 460, 330, this.equal);
-    this.planView = fit(width, u, pad(across, 0.12, 0.004 * size), 460, 190, this.equal);
+    const tall = share => Math.min(Math.max(share * width, 110), share * 1000);
+    this.sideView = fit(width, u, pad(height, 0.07, 0.02 * size), 460, tall(0.32), this.equal);
+    this.planView = fit(width, u, pad(across, 0.12, 0.004 * size), 460, tall(0.19), this.equal);
     const told = view => (view.stretch === 1 ? "equal scales" : `vertical scale × ${view.stretch}`);
     const motion = this.factor === 1 ? "" : `, motion × ${this.factor}`;
     element("side-scale").textContent = told(this.sideView) + motion;
