@@ -3,7 +3,8 @@
 use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
 use crate::rod::line::{Line, Supports};
 use crate::rod::mesh::Mesh;
-use crate::rod::physics::{self, Decision, Surroundings};
+pub use crate::rod::physics::Decision;
+use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
 use crate::scene::types::Scene;
 use crate::solve::controller::{self, Controller, Demands, Failure};
@@ -340,11 +341,20 @@ impl Simulation {
         self.line.mesh().element_count()
     }
 
-    /// Elements from the fairlead: from and to which arc length [m].
-    pub fn mesh(&self) -> Vec<(f64, f64)> {
+    /// Runs of elements of nearly one length, from the fairlead: from and to which arc length [m], and how many.
+    pub fn mesh(&self) -> Vec<(f64, f64, usize)> {
         let mesh = self.line.mesh();
-        let real = mesh.elements.iter().rev().filter(|e| !e.is_joint());
-        real.map(|e| (mesh.length - e.start - e.length, mesh.length - e.start)).collect()
+        let mut runs: Vec<(f64, f64, usize)> = Vec::new();
+        for element in mesh.elements.iter().rev().filter(|element| !element.is_joint()) {
+            let (from, to) = (mesh.length - element.start - element.length, mesh.length - element.start);
+            match runs.last_mut() {
+                Some(run) if (element.length * run.2 as f64 / (run.1 - run.0) - 1.0).abs() < 0.1 => {
+                    (run.1, run.2) = (to, run.2 + 1)
+                }
+                _ => runs.push((from, to, 1)),
+            }
+        }
+        runs
     }
 
     /// Which physics is in the step and why.
