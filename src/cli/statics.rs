@@ -67,8 +67,8 @@ fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
         let (converged, iterations, residual) = match simulation.settle(fairlead, 0.0) {
             Ok(report) => (report.converged, report.iterations, report.residual),
             Err(error) => {
-                let Error::Statics { iterations, residual, .. } = &error else { return Err(error) };
-                let reached = (false, *iterations, *residual);
+                let Error::Statics(state) = &error else { return Err(error) };
+                let reached = (false, state.iterations, state.residual);
                 failure.get_or_insert(error);
                 reached
             }

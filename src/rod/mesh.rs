@@ -142,8 +142,10 @@ impl Mesh {
         self.elements.iter().map(Element::is_joint).collect()
     }
 
-    /// Weight in water of the whole line [N], every section by its absolute value.
+    /// Weight of the whole line [N] that forces are measured against: in water, every section by its absolute value, and at least
+    /// a tenth of that in air, so that a line that hardly sinks has a measure too.
     pub fn total_weight(&self) -> f64 {
-        self.elements.iter().map(|element| element.length * self.sections[element.section].weight.abs()).sum()
+        let per_length = |p: &Properties| p.weight.abs().max(0.1 * p.weight_in_air);
+        self.elements.iter().map(|element| element.length * per_length(&self.sections[element.section])).sum()
     }
 }

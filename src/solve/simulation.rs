@@ -60,6 +60,7 @@ pub struct LastStep {
 pub struct Simulation {
     name: String,
     line: Box<dyn Line>,
+    surroundings: Surroundings,
     decisions: Vec<Decision>,
     bounds: Bounds,
     anchor: Vector3<f64>,
@@ -120,11 +121,12 @@ impl Simulation {
     fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Simulation {
         let (decisions, nodes, length) = (physics::decisions(scene, &mesh), mesh.nodes(), mesh.length);
         let (surroundings, supports) = (Surroundings::of(scene, &mesh), Supports::pinned(&mesh));
-        let line = physics::build(mesh, surroundings, supports);
+        let line = physics::build(mesh, surroundings.clone(), supports);
         let solver = &scene.solver;
         let criteria = Criteria { tolerance: (NEWTON_SHARE * solver.tolerance).clamp(1e-11, 1e-4), length, iterations: 12 };
         Simulation {
             name: scene.lines[index].name.clone(),
+            surroundings,
             decisions,
             bounds: meshing::bounds(scene),
             anchor: scene.lines[index].anchor.into(),
@@ -146,7 +148,14 @@ impl Simulation {
         let nodes = self.line.mesh().nodes();
         self.moment = controller::at_rest(nodes, time, self.demands.max_step);
         start::guess(self.line.mesh(), &self.bounds, &self.anchor, &fairlead, &mut self.moment.state.u);
-        let balance = statics::settle(self.line.as_ref(), &mut self.newton, &mut self.moment.state);
+        let (mesh, surroundings) = (self.line.mesh(), &self.surroundings);
+        let soften = |limit: f64| {
+            let mut soft = mesh.clone();
+            soft.sections.iter_mut().for_each(|section| section.ea = section.ea.min(limit));
+            let supports = Supports::pinned(&soft);
+            physics::build(soft, surroundings.clone(), supports)
+        };
+        let balance = statics::settle(self.line.as_ref(), &soften, &mut self.newton, &mut self.moment.state);
         self.demands.error_rate = ERROR_SHARE * self.tolerance * self.tension_length();
         self.newton.forget();
         self.newton.effort = Effort::default();
