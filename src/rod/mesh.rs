@@ -87,6 +87,11 @@ impl Properties {
         if self.ei > 0.0 { f64::NEG_INFINITY } else { 0.0 }
     }
 
+    /// Weight in air [N/m] of a line that can go slack, else zero.
+    pub fn slack_weight(&self) -> f64 {
+        if self.ei > 0.0 { 0.0 } else { self.weight_in_air }
+    }
+
     /// Whether the slope may jump between this and a neighbouring section.
     fn joins_with_a_kink(&self, other: &Properties) -> bool {
         self.ea != other.ea || self.damping != other.damping || (self.ei > 0.0) != (other.ei > 0.0)
