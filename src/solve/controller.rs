@@ -102,7 +102,7 @@ impl Controller {
                     self.tally.error = self.tally.error.max(ratio);
                     self.accept(moment, h, if count == 1.0 { until } else { moment.time + h });
                     moment.guard = moment.guard.saturating_sub(1);
-                    moment.step = next_step(h, ratio, order).clamp(demands.finest_step.min(demands.max_step), demands.max_step);
+                    moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
                     halved = false;
                     accepted(moment);
                 }

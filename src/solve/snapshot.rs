@@ -23,7 +23,8 @@ impl Snapshot {
     /// Appends the state as little-endian 8-byte words: nodes, flags and counts, scalars, then u, v, a and the earlier a.
     pub fn to_bytes(&self, out: &mut Vec<u8>) {
         let (m, last) = (&self.moment, &self.last);
-        let words = [self.nodes() as u64, u64::from(self.fresh), u64::from(m.guard), last.substeps as u64, last.newton_iterations as u64];
+        let words =
+            [self.nodes() as u64, u64::from(self.fresh), u64::from(m.guard), last.substeps as u64, last.newton_iterations as u64];
         let scalars = [m.time, m.last_step, m.step, self.work, self.error, last.error_estimate];
         let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier];
         let numbers = scalars.iter().chain(fields.into_iter().flat_map(|field| field.data())).map(|x| x.to_bits());

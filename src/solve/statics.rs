@@ -126,11 +126,18 @@ impl Walk {
                 self.step.data_mut().iter_mut().for_each(|x| *x *= scale);
                 line.linear_tensions(&state.u, &self.step, &mut self.tension);
                 self.from.copy_from(&state.u);
-                length = if attempt.mixed { self.move_by(1.0, line, state).map_or(0.0, |_| 1.0) } else { self.search(line, state) };
+                length =
+                    if attempt.mixed { self.move_by(1.0, line, state).map_or(0.0, |_| 1.0) } else { self.search(line, state) };
                 if length == 0.0 {
                     state.u.copy_from(&self.from);
                 }
-                mu *= if length < 0.3 { 4.0 } else if length == 1.0 && scale == -1.0 { 0.1 } else { 1.0 };
+                mu *= if length < 0.3 {
+                    4.0
+                } else if length == 1.0 && scale == -1.0 {
+                    0.1
+                } else {
+                    1.0
+                };
             }
             if length == 0.0 {
                 mu = (10.0 * mu).max(1e-3 * unit);
