@@ -71,6 +71,33 @@ pub struct Counters {
     pub element_iterations: usize,
 }
 
+/// How the last `advance` went.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct LastStep {
+    /// Accepted time steps.
+    pub substeps: usize,
+    /// Newton iterations.
+    pub newton_iterations: usize,
+    /// Largest estimated relative error of a time step [-].
+    pub error_estimate: f64,
+}
+
+/// The complete state of a simulation: restored, it goes on bit for bit as before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {}
+
+impl Snapshot {
+    /// Appends the state as bytes.
+    pub fn to_bytes(&self, _bytes: &mut Vec<u8>) {
+        todo!()
+    }
+
+    /// The state that exactly these bytes hold; `None`: they hold none.
+    pub fn from_bytes(_bytes: &[u8]) -> Option<Snapshot> {
+        todo!()
+    }
+}
+
 /// One mooring line through statics and time.
 pub struct Simulation {}
 
@@ -108,6 +135,38 @@ impl Simulation {
 
     /// Work done so far.
     pub fn counters(&self) -> Counters {
+        todo!()
+    }
+
+    /// How the last `advance` went.
+    pub fn last_step(&self) -> LastStep {
+        todo!()
+    }
+
+    /// Time derivatives of the outputs now (of the time itself: 1).
+    pub fn output_rates(&self) -> Outputs {
+        todo!()
+    }
+
+    /// The state now.
+    pub fn snapshot(&self) -> Snapshot {
+        todo!()
+    }
+
+    /// Goes back to a state of this simulation, or of one made from the same scene.
+    pub fn restore(&mut self, _snapshot: &Snapshot) {
+        todo!()
+    }
+
+    /// Derivatives of all outputs at a time, one for each variation of the path on the way there from a state. The simulation stays
+    /// as it is.
+    pub fn differentiate(
+        &mut self,
+        _from: &Snapshot,
+        _until: f64,
+        _path: &Path,
+        _directions: &[Path],
+    ) -> Result<Vec<Outputs>, Error> {
         todo!()
     }
 }
