@@ -73,7 +73,11 @@ fn write_lists(code: &mut String, document: &Document) -> Result<(), Box<dyn Err
     writeln!(code, "/// Names of the log categories.\npub const LOG_CATEGORIES: &[&str] = &{categories:?};\n")?;
     let experiment = document.descendants().find(|node| node.has_tag_name("DefaultExperiment"));
     let step = experiment.and_then(|node| node.attribute("stepSize"));
-    writeln!(code, "/// Communication step of the default experiment [s].\npub const DEFAULT_STEP: f64 = {};", number(step, "0.1f64")?)?;
+    writeln!(
+        code,
+        "/// Communication step of the default experiment [s].\npub const DEFAULT_STEP: f64 = {};",
+        number(step, "0.1f64")?
+    )?;
     Ok(())
 }
 
@@ -88,7 +92,9 @@ fn required<'a>(node: Node<'a, '_>, attribute: &str) -> Result<&'a str, String> 
 /// A number of the file as a Rust literal.
 fn number(text: Option<&str>, default: &str) -> Result<String, String> {
     match text {
-        Some(text) => text.parse::<f64>().map(|value| format!("{value:?}f64")).map_err(|error| format!("{SOURCE}: {text:?}: {error}")),
+        Some(text) => {
+            text.parse::<f64>().map(|value| format!("{value:?}f64")).map_err(|error| format!("{SOURCE}: {text:?}: {error}"))
+        }
         None => Ok(default.to_owned()),
     }
 }

@@ -457,7 +457,8 @@ mod tests {
 
     #[test]
     fn a_fairlead_at_rest_stays_exactly_where_it_is() {
-        for interpolation in [Interpolation::Auto, Interpolation::Extrapolate, Interpolation::HoldVelocity, Interpolation::Delay] {
+        for interpolation in [Interpolation::Auto, Interpolation::Extrapolate, Interpolation::HoldVelocity, Interpolation::Delay]
+        {
             drive(interpolation, &|_| [3.0, 0.0, 0.0, 0.0], Sends::Velocities, random_steps(50), |time, segment| {
                 assert_eq!(segment.at(time), ([3.0, 0.0, 7.0], [0.0; 3]));
             });
@@ -480,10 +481,16 @@ mod tests {
         let motion = |t: f64| if t < 0.995 { [0.0; 4] } else { [1.0, 0.0, 0.0, 0.0] };
         for step in [0.001, 0.01, 0.1, 0.5] {
             let (mut highest, mut fastest) = (0.0_f64, 0.0_f64);
-            let end = drive(Interpolation::Auto, &motion, Sends::Positions, (0..(3.0 / step) as usize).map(|_| step), |time, segment| {
-                highest = highest.max(segment.at(time).0[0]);
-                fastest = fastest.max(segment.at(time).1[0]);
-            });
+            let end = drive(
+                Interpolation::Auto,
+                &motion,
+                Sends::Positions,
+                (0..(3.0 / step) as usize).map(|_| step),
+                |time, segment| {
+                    highest = highest.max(segment.at(time).0[0]);
+                    fastest = fastest.max(segment.at(time).1[0]);
+                },
+            );
             assert!(highest < 1.2, "step {step}: overshoots to {highest} m");
             assert!(fastest < 1.2 * 1.5 / SHORTEST_BLEND, "step {step}: {fastest} m/s to absorb 1 m");
             assert!((end.position[0] - 1.0).abs() < 1e-3, "step {step}: ends at {}", end.position[0]);

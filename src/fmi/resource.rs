@@ -19,7 +19,8 @@ pub fn folder(location: &str) -> Result<PathBuf, Refusal> {
     if !scheme.eq_ignore_ascii_case("file") {
         return Err(refuse("fmuResourceLocation must be a file: URI"));
     }
-    let decoded = percent_decoded(rest).ok_or_else(|| refuse("the percent-encoding of fmuResourceLocation is not valid UTF-8"))?;
+    let decoded =
+        percent_decoded(rest).ok_or_else(|| refuse("the percent-encoding of fmuResourceLocation is not valid UTF-8"))?;
     let path = match decoded.strip_prefix("//") {
         Some(after) if after.starts_with('/') => after.to_owned(),
         Some(after) => match after.strip_prefix("localhost/") {
@@ -66,7 +67,11 @@ pub fn read_scene(location: &str) -> Result<Scene, Refusal> {
     let refuse = |reason: String| Refusal::Resource { path: path.display().to_string(), reason };
     let text = fs::read_to_string(&path).map_err(|error| refuse(error.to_string()))?;
     let scene: Scene = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
-    if scene.lines.len() == 1 { Ok(scene) } else { Err(refuse(format!("an FMU has one line, this scene has {}", scene.lines.len()))) }
+    if scene.lines.len() == 1 {
+        Ok(scene)
+    } else {
+        Err(refuse(format!("an FMU has one line, this scene has {}", scene.lines.len())))
+    }
 }
 
 /// The GUID of the FMU of a scene: a hash of the interface, the program's version and the scene.

@@ -176,8 +176,7 @@ impl Moment {
             grounded_length: reader.real()?,
             work: reader.real()?,
         };
-        let last =
-            LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
+        let last = LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
         Some(Moment {
             phase,
             experiment,
