@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+/// How many known names a message lists.
+const LISTED: usize = 24;
+
 /// Why something could not be done. Its `Display` is the message for the user; `exit_code` the program's answer to the shell.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
@@ -14,18 +17,30 @@ pub enum Error {
         reason: String,
     },
     /// The text is not the JSON of a scene.
-    #[error("{file}, line {line}, column {column}{}: {message}", at_place(.place))]
+    #[error("{file}, line {line}, column {column}{}: {problem}", at_place(.place))]
     Json {
         /// The file.
         file: String,
         /// Line of the text, from 1.
         line: usize,
-        /// Column of the text, from 1.
+        /// Column of the text in characters, from 1.
         column: usize,
         /// Place in the scene, such as `lines[0].sections[1]`; may be empty.
         place: String,
+        /// What is wrong there.
+        problem: Box<Problem>,
+    },
+    /// A `--set` cannot be applied, or makes the scene unreadable.
+    #[error("{file}, --set {setting}{}: {problem}", at_place(.place))]
+    Set {
+        /// The file whose scene was to be changed.
+        file: String,
+        /// What stands before the `=`, as typed.
+        setting: String,
+        /// Place inside the value given, where the value is a list or an object; may be empty.
+        place: String,
         /// What is wrong.
-        message: String,
+        problem: Box<Problem>,
     },
     /// A value of the scene is not allowed.
     #[error("{file}, {place}: {value} is not allowed: {allowed}")]
@@ -39,14 +54,17 @@ pub enum Error {
         /// What is allowed, and what to change.
         allowed: String,
     },
-    /// The scene asks for something that this version does not model.
-    #[error("{file}, {place}: {feature} cannot be modelled by this version of moorline; remove it to run the scene without")]
+    /// A line is too short for the distance of its ends.
+    #[error(transparent)]
+    Reach(Box<Reach>),
+    /// The scene asks for something that this version does not support.
+    #[error("{file}, {place}: this version of moorline does not support {feature}")]
     Unsupported {
         /// The file.
         file: String,
         /// Place in the scene.
         place: String,
-        /// What was asked for.
+        /// What was asked for, and what to do without it.
         feature: String,
     },
     /// No static equilibrium was found.
@@ -105,13 +123,219 @@ impl Error {
     /// Exit code of the command: 2 bad input, 3 no convergence, 130 stopped by the user.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Error::File { .. } | Error::Json { .. } | Error::Value { .. } | Error::Unsupported { .. } => 2,
+            Error::File { .. }
+            | Error::Json { .. }
+            | Error::Set { .. }
+            | Error::Value { .. }
+            | Error::Reach(_)
+            | Error::Unsupported { .. } => 2,
             Error::Statics { .. } | Error::Step { .. } => 3,
             Error::Interrupted { .. } => 130,
         }
     }
 }
 
+/// What is wrong at one place of a scene's text, or with a `--set`.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Problem {
+    /// The file holds nothing but white space.
+    #[error("the file is empty; a scene is a JSON object and begins with {{")]
+    Empty,
+    /// The text is not UTF-8.
+    #[error("the text is not UTF-8; save it with that encoding")]
+    NotUtf8,
+    /// The text breaks the rules of JSON.
+    #[error("not valid JSON: {reason}")]
+    Syntax {
+        /// The rule that is broken.
+        reason: String,
+    },
+    /// The text ends inside the scene.
+    #[error("the text ends too early: a bracket, a quote or a value is missing; is the file cut off?")]
+    Truncated,
+    /// Too many brackets inside each other.
+    #[error("brackets stand too deep inside each other; a scene needs at most 8 levels")]
+    TooDeep,
+    /// NaN, Infinity, or a number that no f64 can hold.
+    #[error("{text} is not allowed: every number of a scene must be finite")]
+    NotFinite {
+        /// The number as written.
+        text: String,
+    },
+    /// One key stands twice in one object.
+    #[error("the key `{key}` stands twice, first in line {first_line}; keep one of them")]
+    DuplicateKey {
+        /// The key.
+        key: String,
+        /// Line of its first appearance, from 1.
+        first_line: usize,
+    },
+    /// A key that nobody knows.
+    #[error("unknown key `{key}`{}", among(.key, .known))]
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// The keys that are known there.
+        known: Vec<String>,
+    },
+    /// A key that must be there.
+    #[error("the key `{key}` is missing; it has no default")]
+    MissingKey {
+        /// The key.
+        key: String,
+    },
+    /// A word that is none of the words allowed there.
+    #[error("\"{name}\" is not allowed{}", among(.name, .known))]
+    UnknownName {
+        /// The word.
+        name: String,
+        /// The words that are known there.
+        known: Vec<String>,
+    },
+    /// A text where a number should be, and the like.
+    #[error("found {found}, expected {expected}")]
+    Type {
+        /// What stands there.
+        found: String,
+        /// What should stand there.
+        expected: String,
+    },
+    /// A `--set` without `=`, or whose place cannot be read.
+    #[error("cannot be read; write it as place=value, such as lines[0].sections[0].length=1250")]
+    Setting,
+    /// An entry of a list that is not there.
+    #[error("{place}: {index} is not allowed: {}", indices(*.length))]
+    Index {
+        /// The list.
+        place: String,
+        /// The index asked for.
+        index: String,
+        /// Number of entries of the list.
+        length: usize,
+    },
+    /// A place inside something that has no inside.
+    #[error("{place} is {found}, so nothing can be set inside it; set {place} itself")]
+    Inside {
+        /// What has no inside.
+        place: String,
+        /// Its value.
+        found: String,
+    },
+}
+
+/// A line too short for the distance of its ends.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "{file}, {place} \"{line}\": {length:.1} m of line do not reach from fairlead {} to anchor {}, {distance:.1} m away, without \
+     {:.1} % stretch; {limit}. Lengthen a section by at least {lengthen} m, or move the anchor closer.",
+    point(.fairlead), point(.anchor), .stretch * 100.0
+)]
+pub struct Reach {
+    /// The file.
+    pub file: String,
+    /// Place in the scene, such as `lines[0]`.
+    pub place: String,
+    /// Name of the line.
+    pub line: String,
+    /// Unstretched length [m].
+    pub length: f64,
+    /// Position of the fairlead [m].
+    pub fairlead: [f64; 3],
+    /// Position of the anchor [m].
+    pub anchor: [f64; 3],
+    /// Distance of the two [m].
+    pub distance: f64,
+    /// Mean strain needed to reach [-].
+    pub stretch: f64,
+    /// Which limit that passes.
+    pub limit: Limit,
+    /// Length that is missing [m], rounded up.
+    pub lengthen: f64,
+}
+
+/// What a stretched line cannot take.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Limit {
+    /// It breaks.
+    #[error("\"{line_type}\" breaks at {:.1} %", .strain * 100.0)]
+    Breaks {
+        /// The line type.
+        line_type: String,
+        /// Mean strain of the line when it breaks [-].
+        strain: f64,
+    },
+    /// It would be pulled to more than twice its length.
+    #[error("more than 100 % is not modelled")]
+    Doubles,
+}
+
+/// The known name that looks most like `name`, if one looks like it at all.
+pub fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
+    let allowed = (name.chars().count() + 1) / 3;
+    let ranked = known.iter().map(|candidate| (edits(name, candidate), candidate));
+    ranked.filter(|(distance, _)| *distance <= allowed).min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
+}
+
+/// Number of letters to insert, delete, replace or swap with their neighbour to make one word of the other, case aside.
+fn edits(one: &str, other: &str) -> usize {
+    let one: Vec<char> = one.to_lowercase().chars().take(64).collect();
+    let other: Vec<char> = other.to_lowercase().chars().take(64).collect();
+    let mut before = vec![0; other.len() + 1];
+    let mut last: Vec<usize> = (0..=other.len()).collect();
+    for i in 1..=one.len() {
+        let mut row = vec![i];
+        for j in 1..=other.len() {
+            let differs = usize::from(one[i - 1] != other[j - 1]);
+            let mut least = (last[j] + 1).min(row[j - 1] + 1).min(last[j - 1] + differs);
+            if i > 1 && j > 1 && one[i - 1] == other[j - 2] && one[i - 2] == other[j - 1] {
+                least = least.min(before[j - 2] + 1);
+            }
+            row.push(least);
+        }
+        before = std::mem::replace(&mut last, row);
+    }
+    last[other.len()]
+}
+
+/// The tail of a message about an unknown name: the likely one, and all that are known.
+pub fn among(name: &str, known: &[String]) -> String {
+    let quoted: Vec<String> = known.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
+    let more = if known.len() > LISTED { format!(" and {} more", known.len() - LISTED) } else { String::new() };
+    match (nearest(name, known), known.len()) {
+        (_, 0) => String::from("; nothing is known here"),
+        (Some(near), 1) => format!("; did you mean `{near}`?"),
+        (Some(near), _) => format!("; did you mean `{near}`? Known here: {}{more}", quoted.join(", ")),
+        (None, _) => format!("; known here: {}{more}", quoted.join(", ")),
+    }
+}
+
+fn indices(length: usize) -> String {
+    match length {
+        0 => String::from("the list is empty; set the whole list as JSON"),
+        1 => String::from("the list has 1 entry, index 0"),
+        _ => format!("the list has {length} entries, indices 0 to {}", length - 1),
+    }
+}
+
+fn point(at: &[f64; 3]) -> String {
+    format!("({}, {}, {})", at[0], at[1], at[2])
+}
+
 fn at_place(place: &str) -> String {
     if place.is_empty() { String::new() } else { format!(", {place}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_name_is_found_and_far_ones_are_not_offered() {
+        let known = ["period", "sine", "cosine", "ramp"].map(String::from);
+        assert_eq!(nearest("perid", &known).map(String::as_str), Some("period"));
+        assert_eq!(nearest("Sien", &known).map(String::as_str), Some("sine"));
+        assert_eq!(nearest("wavelength", &known), None);
+        assert_eq!(edits("", "abc"), 3);
+        assert_eq!(edits("ab", "ba"), 1);
+    }
 }

@@ -13,6 +13,7 @@ pub mod error;
 /// Numbers only: shape functions, quadrature, block-tridiagonal systems. No mooring.
 pub mod algebra {
     pub mod block_tridiagonal;
+    pub mod lanes;
     pub mod polynomial;
     pub mod shape;
 }
@@ -20,17 +21,46 @@ pub mod algebra {
 /// What the user said: plain data, read and checked. No nodes, no steps.
 pub mod scene {
     pub mod check;
+    pub mod motion_file;
     pub mod read;
     pub mod types;
 }
 
 /// The discrete line: elements and the loads on them. No time steps, no files.
 pub mod rod {
+    pub mod bending;
+    pub mod catenary;
+    pub mod element;
+    pub mod grading;
+    pub mod line;
+    pub mod mesh;
+    pub mod morison;
+    pub mod physics;
+    pub mod seabed;
+    pub mod state;
+    pub mod stretch;
+    pub mod surface;
+    pub mod touching;
+}
+
+/// What the water does at a place.
+pub mod sea {
+    pub mod current;
 }
 
 /// Statics and time.
 pub mod solve {
+    pub mod adams_moulton;
+    pub mod controller;
+    pub mod esdirk;
+    pub mod generalized_alpha;
     pub mod motion;
+    pub mod meshing;
+    pub mod newton;
+    pub mod outputs;
+    pub mod scheme;
+    pub mod start;
+    pub mod statics;
     pub mod simulation;
 }
 

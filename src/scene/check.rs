@@ -1,1 +1,538 @@
-//! To be written.
+//! Plausibility of a scene: one rule, one function, one finding.
+//!
+//! What passes can be computed: every number is finite and of the right sign, every name means something, every line can reach.
+//! Numbers beyond 1e15 in size, and positive ones below 1e-12, are taken for slips: products of them would leave the range of f64.
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
+
+use crate::error::{Error, Limit, Reach, among};
+use crate::scene::motion_file::Table;
+use crate::scene::types::{Line, LineType, Motion, NormalTangential, Scene, Scheme, Triple};
+
+/// Largest size of any number.
+const LARGEST: f64 = 1.0e15;
+/// Smallest number that counts as positive.
+const SMALLEST: f64 = 1.0e-12;
+/// Most elements of a scene.
+const MOST_ELEMENTS: usize = 20_000;
+/// Most rows of `timeseries.csv`.
+const MOST_ROWS: f64 = 5.0e7;
+/// A motion file that begins farther than this from the scene's fairlead [m] may have other axes.
+const FAR: f64 = 5.0;
+
+/// A rule looks at the scene and finds one thing wrong, or nothing; the text is the file's name for the message.
+type Rule = fn(&Scene, &str) -> Result<(), Error>;
+
+/// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
+const RULES: [Rule; 24] = [
+    gravity,
+    water_density,
+    depth,
+    seabed,
+    slope,
+    current,
+    line_types_exist,
+    line_type_names,
+    line_type_numbers,
+    weight_given_once,
+    weight_leaves_buoyancy,
+    lines_exist,
+    line_names,
+    sections_exist,
+    section_types,
+    lengths,
+    elements,
+    ends_above_bed,
+    motion_numbers,
+    motion_above_bed,
+    file_moves_one_line,
+    run,
+    solver,
+    reach,
+];
+
+/// Checks a scene; `file` names it in the message. Returns warnings, or the first thing that is wrong.
+pub fn check(scene: &Scene, file: &str) -> Result<Vec<String>, Error> {
+    for rule in RULES {
+        rule(scene, file)?;
+    }
+    supported(scene, file)?;
+    Ok(unused_line_types(scene))
+}
+
+/// Features that the types know and the solver does not yet: each one a block to delete.
+fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
+    let unsupported =
+        |place: String, feature: &str| Err(Error::Unsupported { file: file.into(), place, feature: feature.into() });
+    if scene.environment.waves.is_some() {
+        return unsupported("environment.waves".into(), "waves; remove them for still water");
+    }
+    if scene.environment.seabed.friction != 0.0 {
+        return unsupported("environment.seabed.friction".into(), "friction of the seabed; set it to 0");
+    }
+    for (name, line_type) in &scene.line_types {
+        if line_type.tension_strain.is_some() {
+            return unsupported(in_type(name, "tension_strain"), "tension–strain tables; remove it to use `ea` alone");
+        }
+        if line_type.inner_fluid.is_some() {
+            return unsupported(in_type(name, "inner_fluid"), "an inner fluid; remove it and add its mass to `mass`");
+        }
+    }
+    for (number, line) in scene.lines.iter().enumerate() {
+        if !line.attachments.is_empty() {
+            return unsupported(format!("lines[{number}].attachments"), "clump weights and buoys; remove them");
+        }
+    }
+    if scene.solver.scheme == Scheme::Cable1994 {
+        let others = "the scheme \"cable-1994\"; use \"adams-moulton\", \"esdirk3\" or \"generalized-alpha\"";
+        return unsupported("solver.scheme".into(), others);
+    }
+    if scene.solver.hydrostatic_strain {
+        return unsupported("solver.hydrostatic_strain".into(), "strain from hydrostatic pressure; set it to false");
+    }
+    Ok(())
+}
+
+fn gravity(scene: &Scene, file: &str) -> Result<(), Error> {
+    positive(file, "environment.gravity", scene.environment.gravity, "m/s²")
+}
+
+fn water_density(scene: &Scene, file: &str) -> Result<(), Error> {
+    not_negative(file, "environment.water_density", scene.environment.water_density, "kg/m³")
+}
+
+fn depth(scene: &Scene, file: &str) -> Result<(), Error> {
+    positive(file, "environment.depth", scene.environment.depth, "m: the seabed lies at z = -depth")
+}
+
+fn seabed(scene: &Scene, file: &str) -> Result<(), Error> {
+    let seabed = &scene.environment.seabed;
+    if let Some(stiffness) = seabed.stiffness {
+        positive(file, "environment.seabed.stiffness", stiffness, "Pa; leave it out for the line's weight / diameter")?;
+    }
+    not_negative(file, "environment.seabed.damping", seabed.damping, "Pa·s")?;
+    not_negative(file, "environment.seabed.friction", seabed.friction, "")
+}
+
+fn slope(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (axis, slope) in scene.environment.seabed.slope_deg.into_iter().enumerate() {
+        if !(slope.abs() <= 45.0) {
+            return refuse(
+                file,
+                format!("environment.seabed.slope_deg[{axis}]"),
+                number(slope),
+                "it must lie between -45 and 45 degrees",
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Finite rows whose z rises all the way or falls all the way.
+fn current(scene: &Scene, file: &str) -> Result<(), Error> {
+    let rows = &scene.environment.current;
+    for (index, row) in rows.iter().enumerate() {
+        finite(file, &format!("environment.current[{index}].z"), &[row.z])?;
+        finite(file, &format!("environment.current[{index}].velocity"), &row.velocity)?;
+    }
+    let rising = rows.len() < 2 || rows[1].z > rows[0].z;
+    for (index, pair) in rows.windows(2).enumerate() {
+        let place = format!("environment.current[{}].z", index + 1);
+        if pair[0].z == pair[1].z {
+            return refuse(file, place, number(pair[1].z), "the row before has the same z; give one velocity per height");
+        }
+        if (pair[1].z > pair[0].z) != rising {
+            return refuse(file, place, number(pair[1].z), "z must rise from row to row, or fall from row to row");
+        }
+    }
+    Ok(())
+}
+
+fn line_types_exist(scene: &Scene, file: &str) -> Result<(), Error> {
+    if scene.line_types.is_empty() {
+        return refuse(file, "line_types", "{ }", "a scene needs at least one line type with ea, mass and diameter");
+    }
+    Ok(())
+}
+
+fn line_type_names(scene: &Scene, file: &str) -> Result<(), Error> {
+    match scene.line_types.keys().find(|name| name.trim().is_empty() || name.contains(char::is_control)) {
+        Some(name) => refuse(file, "line_types", format!("{name:?}"), "a line type needs a name of printable characters"),
+        None => Ok(()),
+    }
+}
+
+fn line_type_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        let at = |key: &str| in_type(name, key);
+        positive(file, &at("ea"), line_type.ea, "N")?;
+        positive(file, &at("mass"), line_type.mass, "kg/m")?;
+        positive(file, &at("diameter"), line_type.diameter, "m")?;
+        if let Some(weight) = line_type.submerged_weight {
+            finite(file, &at("submerged_weight"), &[weight])?;
+        }
+        if let Some(buoyancy) = line_type.buoyancy {
+            not_negative(file, &at("buoyancy"), buoyancy, "N/m")?;
+        }
+        not_negative(file, &at("ei"), line_type.ei, "N·m²")?;
+        not_negative(file, &at("damping"), line_type.damping, "s")?;
+        for (key, NormalTangential { normal, tangential }) in [("drag", line_type.drag), ("added_mass", line_type.added_mass)] {
+            not_negative(file, &at(&format!("{key}.normal")), normal, "")?;
+            not_negative(file, &at(&format!("{key}.tangential")), tangential, "")?;
+        }
+        if let Some(load) = line_type.breaking_load {
+            positive(file, &at("breaking_load"), load, "N")?;
+        }
+    }
+    Ok(())
+}
+
+fn weight_given_once(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        if let (Some(weight), Some(buoyancy)) = (line_type.submerged_weight, line_type.buoyancy) {
+            let both = format!("submerged_weight {} and buoyancy {} together", number(weight), number(buoyancy));
+            return refuse(
+                file,
+                in_type(name, "submerged_weight"),
+                both,
+                "give one of the two, or neither for the buoyancy of `diameter`",
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Heavier in water than in air is a slip; rounding of a line weighed without buoyancy is not.
+fn weight_leaves_buoyancy(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        let in_air = line_type.mass * scene.environment.gravity;
+        let weight = line_type.submerged_weight.unwrap_or(0.0);
+        if weight > in_air * (1.0 + 1.0e-9) {
+            let allowed = format!("it must not exceed the weight in air, mass·gravity = {} N/m", number(in_air));
+            return refuse(file, in_type(name, "submerged_weight"), number(weight), allowed);
+        }
+    }
+    Ok(())
+}
+
+fn lines_exist(scene: &Scene, file: &str) -> Result<(), Error> {
+    if scene.lines.is_empty() {
+        return refuse(file, "lines", "[ ]", "a scene needs at least one line with fairlead, anchor and sections");
+    }
+    Ok(())
+}
+
+/// Names become column prefixes of `timeseries.csv` and parts of FMU variables.
+fn line_names(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (index, line) in scene.lines.iter().enumerate() {
+        let place = format!("lines[{index}].name");
+        let unfit = |c: char| ".,;\"'`".contains(c) || c.is_control();
+        if line.name.trim().is_empty() || line.name.contains(unfit) {
+            return refuse(
+                file,
+                place,
+                format!("{:?}", line.name),
+                "a name needs a letter, and no dot, comma, semicolon, quote or control character",
+            );
+        }
+        if let Some(twin) = scene.lines[..index].iter().position(|other| other.name == line.name) {
+            return refuse(
+                file,
+                place,
+                format!("{:?}", line.name),
+                format!("lines[{twin}] has this name; every line needs its own"),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn sections_exist(scene: &Scene, file: &str) -> Result<(), Error> {
+    match scene.lines.iter().position(|line| line.sections.is_empty()) {
+        Some(index) => {
+            refuse(file, format!("lines[{index}].sections"), "[ ]", "a line needs at least one section with type and length")
+        }
+        None => Ok(()),
+    }
+}
+
+fn section_types(scene: &Scene, file: &str) -> Result<(), Error> {
+    let known: Vec<String> = scene.line_types.keys().cloned().collect();
+    for (place, line_type) in sections(scene).map(|(place, section)| (place, &section.line_type)) {
+        if !scene.line_types.contains_key(line_type) {
+            let allowed = format!("it must be one of line_types{}", among(line_type, &known));
+            return refuse(file, format!("{place}.type"), format!("{line_type:?}"), allowed);
+        }
+    }
+    Ok(())
+}
+
+fn lengths(scene: &Scene, file: &str) -> Result<(), Error> {
+    sections(scene).try_for_each(|(place, section)| positive(file, &format!("{place}.length"), section.length, "m"))
+}
+
+fn elements(scene: &Scene, file: &str) -> Result<(), Error> {
+    let mut total: usize = 0;
+    for (place, section) in sections(scene) {
+        let place = format!("{place}.elements");
+        let count = section.elements.unwrap_or(1);
+        total = total.saturating_add(count);
+        if count == 0 {
+            return refuse(file, place, "0", "it must be 1 or more; leave it out to let the program choose");
+        }
+        if total > MOST_ELEMENTS {
+            return refuse(
+                file,
+                place,
+                count.to_string(),
+                format!("a scene can have {MOST_ELEMENTS} elements in all, and this makes {total}"),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn ends_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (index, line) in scene.lines.iter().enumerate() {
+        for (end, at) in [("fairlead", line.fairlead), ("anchor", line.anchor)] {
+            let place = format!("lines[{index}].{end}");
+            finite(file, &place, &at)?;
+            if scene.environment.is_below_bed(at) {
+                let bed = number(scene.environment.bed_height(at[0], at[1]));
+                return refuse(
+                    file,
+                    place,
+                    triple(at),
+                    format!("it lies below the seabed, which is at z = {bed} m there (environment.depth)"),
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+fn motion_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
+    match &scene.motion {
+        Motion::Fixed => Ok(()),
+        Motion::Sinusoidal { period, sine, cosine, ramp } => {
+            positive(file, "motion.period", *period, "s")?;
+            finite(file, "motion.sine", sine)?;
+            finite(file, "motion.cosine", cosine)?;
+            not_negative(file, "motion.ramp", ramp.unwrap_or(0.0), "s; 0 means none")
+        }
+        Motion::File { path } if path.trim().is_empty() => {
+            refuse(file, "motion.path", "\"\"", "name a CSV file with the columns t,x,y,z[,vx,vy,vz]")
+        }
+        Motion::File { .. } => Ok(()),
+    }
+}
+
+/// A sinusoidal motion reaches, normal to the bed's plane, the root of the squares of its sine and cosine parts.
+fn motion_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
+    let Motion::Sinusoidal { sine, cosine, .. } = &scene.motion else { return Ok(()) };
+    let environment = &scene.environment;
+    let level = environment.bed_height(0.0, 0.0);
+    let rise = |offset: &Triple| offset[2] - (environment.bed_height(offset[0], offset[1]) - level);
+    let dip = rise(sine).hypot(rise(cosine));
+    for (index, line) in scene.lines.iter().enumerate() {
+        let [x, y, z] = line.fairlead;
+        if environment.is_below_bed([x, y, z - dip]) {
+            let clearance = number(z - environment.bed_height(x, y));
+            let value = format!("an amplitude of {} m towards the seabed", number(dip));
+            return refuse(
+                file,
+                "motion",
+                value,
+                format!("the fairlead of lines[{index}] is {clearance} m above the seabed and would dip below it"),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn file_moves_one_line(scene: &Scene, file: &str) -> Result<(), Error> {
+    if matches!(scene.motion, Motion::File { .. }) && scene.lines.len() > 1 {
+        let allowed = format!("its absolute positions belong to one fairlead, and the scene has {} lines", scene.lines.len());
+        return refuse(file, "motion.kind", "\"file\"", allowed);
+    }
+    Ok(())
+}
+
+fn run(scene: &Scene, file: &str) -> Result<(), Error> {
+    let run = &scene.run;
+    not_negative(file, "run.duration", run.duration, "s")?;
+    positive(file, "run.output_step", run.output_step, "s")?;
+    let rows = run.duration / run.output_step;
+    if !(rows <= MOST_ROWS) {
+        let allowed = format!("{} s of run would make {rows:.1e} rows, and {MOST_ROWS:.0e} are the limit", number(run.duration));
+        return refuse(file, "run.output_step", number(run.output_step), allowed);
+    }
+    Ok(())
+}
+
+fn solver(scene: &Scene, file: &str) -> Result<(), Error> {
+    let solver = &scene.solver;
+    if !(1.0e-8..=0.1).contains(&solver.tolerance) {
+        return refuse(file, "solver.tolerance", number(solver.tolerance), "it must lie between 1e-8 and 0.1");
+    }
+    positive(file, "solver.max_step", solver.max_step, "s")?;
+    solver.fixed_step.map_or(Ok(()), |step| positive(file, "solver.fixed_step", step, "s; leave it out for step control"))
+}
+
+/// A line may be shorter than the distance of its ends: it stretches, but neither to twice its length nor beyond a breaking load.
+fn reach(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (index, line) in scene.lines.iter().enumerate() {
+        let (length, distance) = (line.length(), distance(line.fairlead, line.anchor));
+        let stretch = distance / length - 1.0;
+        let limit = weakest(scene, line)
+            .filter(|limit| matches!(limit, Limit::Breaks { strain, .. } if *strain <= 1.0))
+            .unwrap_or(Limit::Doubles);
+        let allowed = match &limit {
+            Limit::Breaks { strain, .. } => *strain,
+            Limit::Doubles => 1.0,
+        };
+        if !(stretch <= allowed * (1.0 + 1.0e-9)) {
+            return Err(Error::Reach(Box::new(Reach {
+                file: file.into(),
+                place: format!("lines[{index}]"),
+                line: line.name.clone(),
+                length,
+                fairlead: line.fairlead,
+                anchor: line.anchor,
+                distance,
+                stretch,
+                limit,
+                lengthen: rounded_up(distance / (1.0 + allowed) - length),
+            })));
+        }
+    }
+    Ok(())
+}
+
+/// The line type that breaks first when a line is pulled, and the mean strain of the line at that tension.
+/// Sections in a row carry one tension T and stretch by T Σ(length/EA); weight is left aside.
+fn weakest(scene: &Scene, line: &Line) -> Option<Limit> {
+    let used: Vec<(&String, &LineType, f64)> = line
+        .sections
+        .iter()
+        .filter_map(|section| Some((&section.line_type, scene.line_types.get(&section.line_type)?, section.length)))
+        .collect();
+    let compliance: f64 = used.iter().map(|(_, line_type, length)| length / line_type.ea).sum();
+    let loads = used.iter().filter_map(|(name, line_type, _)| Some((name, line_type.breaking_load?)));
+    let (name, load) = loads.min_by(|one, other| one.1.total_cmp(&other.1))?;
+    Some(Limit::Breaks { line_type: (*name).clone(), strain: load * compliance / line.length() })
+}
+
+/// Warning: a line type that no section names.
+fn unused_line_types(scene: &Scene) -> Vec<String> {
+    let used = |name: &String| sections(scene).any(|(_, section)| section.line_type == *name);
+    let unused = scene.line_types.keys().filter(|name| !used(name));
+    unused.map(|name| format!("line_types.{name} is used by no section")).collect()
+}
+
+/// Warnings about a motion file named `path`: it begins elsewhere than the fairlead, or does not cover the run.
+pub fn motion_table(scene: &Scene, table: &Table, path: &str) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let (Some(line), Some(first), Some(start), Some(end)) =
+        (scene.lines.first(), table.positions.first(), table.times.first(), table.times.last())
+    else {
+        return warnings;
+    };
+    let away = distance(line.fairlead, *first);
+    if away > FAR {
+        warnings.push(format!(
+            "{path} begins at {}, {away:.1} m away from the fairlead of lines[0], {}: are they positions with z up, in metres?",
+            triple(*first),
+            triple(line.fairlead)
+        ));
+    }
+    if *start > 0.0 || *end < scene.run.duration {
+        let (start, end, duration) = (number(*start), number(*end), number(scene.run.duration));
+        warnings
+            .push(format!("{path} covers t = {start} s to {end} s of a run from 0 to {duration} s; the fairlead rests outside"));
+    }
+    warnings
+}
+
+/// All sections with their places.
+fn sections(scene: &Scene) -> impl Iterator<Item = (String, &crate::scene::types::Section)> {
+    scene.lines.iter().enumerate().flat_map(|(line, of)| {
+        of.sections.iter().enumerate().map(move |(section, it)| (format!("lines[{line}].sections[{section}]"), it))
+    })
+}
+
+fn in_type(name: &str, key: &str) -> String {
+    format!("line_types.{name}.{key}")
+}
+
+/// Greater than 0; `unit` ends the message and may go on with a remedy.
+fn positive(file: &str, place: &str, value: f64, unit: &str) -> Result<(), Error> {
+    if !(value > 0.0) {
+        return refuse(file, place, number(value), format!("it must be greater than 0 {unit}").trim_end());
+    }
+    if !(SMALLEST..=LARGEST).contains(&value) {
+        return refuse(file, place, number(value), format!("it must lie between {SMALLEST:e} and {LARGEST:e} {unit}").trim_end());
+    }
+    Ok(())
+}
+
+/// 0 or greater; `unit` ends the message.
+fn not_negative(file: &str, place: &str, value: f64, unit: &str) -> Result<(), Error> {
+    if !(value >= 0.0) {
+        return refuse(file, place, number(value), format!("it must be 0 or greater, {unit}").trim_end_matches([',', ' ']));
+    }
+    finite(file, place, &[value])
+}
+
+fn finite(file: &str, place: &str, values: &[f64]) -> Result<(), Error> {
+    match values.iter().find(|value| !(value.abs() <= LARGEST)) {
+        Some(value) => refuse(file, place, number(*value), format!("it must be finite and at most {LARGEST:e} in size")),
+        None => Ok(()),
+    }
+}
+
+fn refuse(file: &str, place: impl Into<String>, value: impl Into<String>, allowed: impl Into<String>) -> Result<(), Error> {
+    Err(Error::Value { file: file.into(), place: place.into(), value: value.into(), allowed: allowed.into() })
+}
+
+/// A number as a user would write it, without the last digits that come from rounding.
+fn number(value: f64) -> String {
+    let value = format!("{value:.11e}").parse().unwrap_or(value);
+    if value == 0.0 || (1.0e-4..1.0e7).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+fn triple(at: Triple) -> String {
+    format!("({}, {}, {})", number(at[0]), number(at[1]), number(at[2]))
+}
+
+fn distance(from: Triple, to: Triple) -> f64 {
+    (to[0] - from[0]).hypot(to[1] - from[1]).hypot(to[2] - from[2])
+}
+
+/// Rounded up to two digits, and to whole metres from 10 m on.
+fn rounded_up(length: f64) -> f64 {
+    let step = 10f64.powf((length.log10().floor() - 1.0).clamp(-6.0, 0.0));
+    // Dividing by the whole number 1/step keeps 0.1 from becoming 0.1000…01.
+    let per_step = (1.0 / step).round();
+    (length * per_step).ceil() / per_step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_length_is_rounded_up_never_down() {
+        assert_eq!(rounded_up(46.2), 47.0);
+        assert_eq!(rounded_up(1234.5), 1235.0);
+        assert_eq!(rounded_up(0.1234), 0.13);
+        assert_eq!(rounded_up(3.0), 3.0);
+    }
+
+    #[test]
+    fn numbers_are_written_as_a_user_would() {
+        assert_eq!(number(-130.0), "-130");
+        assert_eq!(number(5.0e8), "5e8");
+        assert_eq!(number(1327.3300774999998), "1327.3300775");
+        assert_eq!(number(f64::NAN), "NaN");
+    }
+}

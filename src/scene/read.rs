@@ -1,1 +1,299 @@
-//! To be written.
+//! From text to a checked scene: JSON, `--set`, types, names, plausibility, motion file. Every way to fail names its place.
+
+mod place;
+mod setting;
+
+use crate::error::{Error, Problem};
+use crate::scene::types::{Motion, Scene};
+use crate::scene::{check, motion_file};
+use place::{Place, Step, shortened};
+use serde_json::Value;
+use setting::Applied;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The built-in scene.
+const BUILT_IN: &str = include_str!("../../examples/lindahl-sjoberg.json");
+
+/// A scene file larger than this [bytes] is none.
+const LARGEST: u64 = 16 << 20;
+
+/// A scene that has been read and checked, and what belongs to it.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The scene; every line has a name.
+    pub scene: Scene,
+    /// Its file, for messages.
+    pub file: String,
+    /// Directory of the file; paths in the scene are relative to it.
+    pub directory: PathBuf,
+    /// The motion of kind `file`, else none.
+    pub motion: Option<Arc<motion_file::Table>>,
+    /// What is allowed but may not be meant.
+    pub warnings: Vec<String>,
+}
+
+/// Reads and checks a scene file, changed by `--set` entries (`place=value`).
+pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Error> {
+    let file = path.display().to_string();
+    let text = decode(read_bytes(path, LARGEST, "a scene file")?, &file)?;
+    parse(&text, &file, path.parent().unwrap_or(Path::new("")), sets)
+}
+
+/// The built-in scene (Lindahl & Sjöberg 1983 as run by Ma & Webster 1994), changed by `--set` entries.
+pub fn built_in(sets: &[String]) -> Result<Loaded, Error> {
+    parse(BUILT_IN, "built-in scene", Path::new("."), sets)
+}
+
+/// Reads and checks the text of a scene, changed by `--set` entries. `file` is for messages; paths in the scene are
+/// relative to `directory`.
+pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Result<Loaded, Error> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut value = json(text, file)?;
+    let applied = setting::apply(&mut value, sets, file)?;
+    let source = Source { text, file, applied: &applied };
+    let mut scene: Scene = serde_path_to_error::deserialize(&value).map_err(|error| {
+        let place = from_path(error.path());
+        let (place, problem) = in_words(&error.inner().to_string(), place);
+        source.error(place, problem)
+    })?;
+    if let Some((place, problem)) = other_shape(&value, &scene) {
+        return Err(source.error(place, problem));
+    }
+    name_lines(&mut scene);
+    let mut warnings = check::check(&scene, file)?;
+    let motion = match &scene.motion {
+        Motion::File { path } => {
+            let table = motion_file::read(&directory.join(path), &scene.environment)?;
+            warnings.extend(check::motion_table(&scene, &table, path));
+            Some(Arc::new(table))
+        }
+        _ => None,
+    };
+    Ok(Loaded { scene, file: file.to_string(), directory: directory.to_path_buf(), motion, warnings })
+}
+
+/// JSON Schema of a scene, from the types that read it.
+pub fn schema() -> Value {
+    schemars::schema_for!(Scene).to_value()
+}
+
+/// The bytes of a file; `what` says what the file should be. Larger files than `largest` bytes are refused.
+pub(super) fn read_bytes(path: &Path, largest: u64, what: &str) -> Result<Vec<u8>, Error> {
+    let failed = |reason: String| Error::File { path: path.display().to_string(), reason };
+    let file = File::open(path).map_err(|error| failed(error.to_string()))?;
+    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+        return Err(failed(format!("this is a directory, not {what}")));
+    }
+    let mut bytes = Vec::new();
+    file.take(largest + 1).read_to_end(&mut bytes).map_err(|error| failed(error.to_string()))?;
+    if bytes.len() as u64 > largest {
+        return Err(failed(format!("larger than {} MB: this is not {what}", largest >> 20)));
+    }
+    Ok(bytes)
+}
+
+/// The text of a file, which must be UTF-8.
+pub(super) fn decode(bytes: Vec<u8>, file: &str) -> Result<String, Error> {
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let start = String::from_utf8_lossy(&error.as_bytes()[..valid]);
+        let (line, column) = place::line_and_column(&start, start.len());
+        Error::Json { file: file.into(), line, column, place: String::new(), problem: Problem::NotUtf8.into() }
+    })
+}
+
+/// JSON text as a tree. A text of another kind is told from a JSON text with a mistake in it.
+fn json(text: &str, file: &str) -> Result<Value, Error> {
+    let start = text.trim_start();
+    let at = |offset: usize, place: Place, problem: Problem| {
+        let (line, column) = place::line_and_column(text, offset);
+        Error::Json { file: file.into(), line, column, place: place.to_string(), problem: problem.into() }
+    };
+    if start.is_empty() {
+        return Err(at(text.len(), Place::default(), Problem::Empty));
+    }
+    if !start.starts_with(['{', '[', '"', '<', '/', '#']) {
+        let (line, _) = place::line_and_column(text, text.len() - start.len());
+        let feature = String::from("CABLE input files; a scene is a JSON object and begins with {");
+        return Err(Error::Unsupported { file: file.into(), place: format!("line {line}"), feature });
+    }
+    let value: Value = serde_json::from_str(text).map_err(|error| {
+        let line_start = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum::<usize>();
+        let offset = (line_start + error.column().saturating_sub(1)).min(text.len());
+        at(offset, place::place_at(text, offset), syntax(&error, text, offset))
+    })?;
+    if !value.is_object() {
+        let found = plain_found(if value.is_array() { "sequence" } else { "a text" });
+        return Err(at(text.len() - start.len(), Place::default(), Problem::Type { found, expected: plain_expected("a map") }));
+    }
+    match place::duplicate_key(text) {
+        None => Ok(value),
+        Some(twice) => {
+            let key = twice.place.0.last().map(|step| Place(vec![step.clone()]).to_string()).unwrap_or_default();
+            let first_line = place::line_and_column(text, twice.first).0;
+            Err(at(twice.second, twice.place, Problem::DuplicateKey { key, first_line }))
+        }
+    }
+}
+
+/// What breaks the rules of JSON at a byte of the text.
+fn syntax(error: &serde_json::Error, text: &str, offset: usize) -> Problem {
+    let offset = place::char_start(text, offset);
+    let ends = |c: char| c.is_whitespace() || "{}[],:\"".contains(c);
+    let start = text[..offset].rfind(ends).map_or(0, |found| found + text[found..].chars().next().map_or(1, char::len_utf8));
+    let word = text[start..].split(ends).next().unwrap_or_default();
+    let bare = word.trim_start_matches(['-', '+']).to_lowercase();
+    let reason = error.to_string();
+    let reason = reason.split(" at line ").next().unwrap_or_default();
+    if ["nan", "inf", "infinity"].contains(&bare.as_str()) || reason == "number out of range" {
+        return Problem::NotFinite { text: shortened(word) };
+    }
+    if reason == "recursion limit exceeded" {
+        return Problem::TooDeep;
+    }
+    if error.is_eof() {
+        return Problem::Truncated;
+    }
+    let hint = match word.chars().next() {
+        Some('#' | '/') => "; JSON knows no comments",
+        Some('\'') => "; words stand in double quotes",
+        Some('.' | '+') => "; a number begins with a digit or a minus sign",
+        Some(_) => &format!(", found `{}`", shortened(word)),
+        None => "",
+    };
+    Problem::Syntax { reason: format!("{reason}{hint}") }
+}
+
+/// Where a scene came from: its text and what `--set` made of it.
+struct Source<'a> {
+    text: &'a str,
+    file: &'a str,
+    applied: &'a [Applied],
+}
+
+impl Source<'_> {
+    /// The error for a problem at a place: it names the `--set` that caused it, else line and column of the text.
+    fn error(&self, place: Place, problem: Problem) -> Error {
+        let concerned = match &problem {
+            Problem::MissingKey { key } => place.member(key),
+            _ => place.clone(),
+        };
+        let offset = place::locate(self.text, &place);
+        let mut latest = self.applied.iter().rev();
+        let cause = latest.clone().find(|set| set.place.holds(&concerned));
+        let cause = cause.or_else(|| latest.find(|set| offset.is_none() && !place.0.is_empty() && place.holds(&set.place)));
+        if let Some(set) = cause {
+            let within = place.inside(&set.place);
+            return Error::Set {
+                file: self.file.into(),
+                setting: set.typed.clone(),
+                place: within.to_string(),
+                problem: problem.into(),
+            };
+        }
+        let start = self.text.len() - self.text.trim_start().len();
+        let (line, column) = place::line_and_column(self.text, offset.unwrap_or(start));
+        Error::Json { file: self.file.into(), line, column, place: place.to_string(), problem: problem.into() }
+    }
+}
+
+/// The place that serde was at.
+fn from_path(path: &serde_path_to_error::Path) -> Place {
+    use serde_path_to_error::Segment;
+    let steps = path.iter().filter_map(|segment| match segment {
+        Segment::Seq { index } => Some(Step::Index(*index)),
+        Segment::Map { key } => Some(Step::Key(key.clone())),
+        Segment::Enum { .. } | Segment::Unknown => None,
+    });
+    Place(steps.collect())
+}
+
+/// What serde's message says, as data, and the place it is about: of an unknown key the key's own.
+fn in_words(message: &str, place: Place) -> (Place, Problem) {
+    let (found, expected) = message.rsplit_once(", expected ").unwrap_or((message, ""));
+    let quoted = |text: &str| found.strip_prefix(text).map(|rest| rest.trim_matches('`').to_string());
+    let known = || expected.split('`').skip(1).step_by(2).map(String::from).collect::<Vec<String>>();
+    if let Some(key) = message.strip_prefix("missing field ") {
+        return (place, Problem::MissingKey { key: key.trim_matches('`').to_string() });
+    }
+    if let Some(key) = quoted("unknown field `") {
+        let own = if place.0.last() == Some(&Step::Key(key.clone())) { place } else { place.member(&key) };
+        return (own, Problem::UnknownKey { key: shortened(&key), known: known() });
+    }
+    if let Some(name) = quoted("unknown variant `") {
+        return (place, Problem::UnknownName { name: shortened(&name), known: known() });
+    }
+    let found =
+        found.trim_start_matches("invalid type: ").trim_start_matches("invalid value: ").trim_start_matches("invalid length ");
+    (place, Problem::Type { found: shortened(&plain_found(found)), expected: plain_expected(expected) })
+}
+
+/// What serde found, in plain words.
+fn plain_found(found: &str) -> String {
+    match found {
+        "map" => String::from("an object { }"),
+        "sequence" => String::from("a list [ ]"),
+        count if count.parse::<usize>().is_ok() => format!("a list of {count}"),
+        _ => found
+            .trim_start_matches("integer ")
+            .trim_start_matches("floating point ")
+            .trim_start_matches("boolean ")
+            .replace('`', ""),
+    }
+}
+
+/// What serde expected, in plain words.
+fn plain_expected(expected: &str) -> String {
+    let plain = match expected {
+        "f64" => "a number",
+        "usize" | "u64" => "a whole number, not negative and without a decimal point",
+        "a string" => "a text in quotes",
+        "a boolean" => "true or false",
+        "a sequence" => "a list [ ]",
+        "a map" => "an object { }",
+        "string or map" => "a name in quotes",
+        "an array of length 3" | "fewer elements in array" => "three numbers [x, y, z]",
+        "an array of length 2" => "two numbers",
+        other if other.starts_with("struct ") || other.contains("tagged enum") => "an object { }",
+        other => other,
+    };
+    plain.to_string()
+}
+
+/// Where the scene stands otherwise than it was written: serde takes a list of values for an object, and an object for a name.
+fn other_shape(written: &Value, scene: &Scene) -> Option<(Place, Problem)> {
+    let read = serde_json::to_value(scene).ok()?;
+    let mut pairs = vec![(Place::default(), written, &read)];
+    while let Some((place, written, read)) = pairs.pop() {
+        match (written, read) {
+            (Value::Object(members), Value::Object(others)) => {
+                let both = members.iter().filter_map(|(key, member)| Some((place.member(key), member, others.get(key)?)));
+                pairs.extend(both);
+            }
+            (Value::Array(entries), Value::Array(others)) => {
+                let both = entries.iter().zip(others).enumerate();
+                pairs.extend(both.map(|(index, (entry, other))| (place.with(Step::Index(index)), entry, other)));
+            }
+            (Value::Array(_), Value::Object(_)) => {
+                return Some((place, Problem::Type { found: plain_found("sequence"), expected: plain_expected("a map") }));
+            }
+            (Value::Object(_), Value::String(_)) => {
+                return Some((place, Problem::Type { found: plain_found("map"), expected: plain_expected("string or map") }));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Names the lines that have no name `line1`, `line2`, … by their position.
+fn name_lines(scene: &mut Scene) {
+    for (number, line) in scene.lines.iter_mut().enumerate() {
+        if line.name.is_empty() {
+            line.name = format!("line{}", number + 1);
+        }
+    }
+}

@@ -2,9 +2,11 @@
 //!
 //! Axes: right-handed, z up, still water at z = 0, seabed at z = -depth. SI units; angles in degrees only where a
 //! name ends in `_deg`. Arc length runs unstretched from the fairlead (0) to the anchor (L).
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
 /// A position, velocity or offset (x, y, z).
@@ -20,8 +22,10 @@ pub struct Scene {
     /// Water, seabed and gravity.
     pub environment: Environment,
     /// Line types by name; sections refer to them.
+    #[schemars(extend("minProperties" = 1))]
     pub line_types: BTreeMap<String, LineType>,
     /// The mooring lines, each independent of the others.
+    #[schemars(length(min = 1))]
     pub lines: Vec<Line>,
     /// Motion of the fairleads. Default: fixed.
     #[serde(default)]
@@ -40,11 +44,14 @@ pub struct Scene {
 pub struct Environment {
     /// Acceleration of gravity [m/s²], > 0. Default 9.80665.
     #[serde(default = "standard_gravity")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub gravity: f64,
     /// Density of the water [kg/m³], ≥ 0. Default 1025.
     #[serde(default = "sea_water_density")]
+    #[schemars(range(min = 0.0))]
     pub water_density: f64,
     /// Depth of the water at x = y = 0 [m], > 0: the seabed lies at z = -depth.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub depth: f64,
     /// The seabed's resistance. Default: see each field.
     #[serde(default)]
@@ -67,15 +74,19 @@ pub struct Seabed {
     /// Normal stiffness [N/m per metre of line per metre of penetration, Pa], > 0. Default: for each line type its
     /// submerged weight per length / diameter (of a type that does not sink: its weight in air / diameter).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub stiffness: Option<f64>,
     /// Normal damping [Pa·s], ≥ 0; it pushes only. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub damping: f64,
     /// Coulomb friction coefficient [-], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub friction: f64,
     /// Rise of the bed along +x and +y [deg], each within ±45: z = -depth + x tan(a) + y tan(b). Default [0, 0].
     #[serde(default)]
+    #[schemars(inner(range(min = -45.0, max = 45.0)))]
     pub slope_deg: [f64; 2],
 }
 
@@ -173,19 +184,24 @@ pub enum Surface {
 #[serde(deny_unknown_fields)]
 pub struct LineType {
     /// Axial stiffness EA [N], > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub ea: f64,
     /// Mass per length in air, contents excluded [kg/m], > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub mass: f64,
     /// Diameter on which drag and added mass act [m], > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub diameter: f64,
     /// Weight in water [N/m]; may be zero or negative. Give this or `buoyancy` or neither (then the buoyancy of `diameter`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub submerged_weight: Option<f64>,
     /// Buoyancy in water [N/m], ≥ 0. Give this or `submerged_weight` or neither.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub buoyancy: Option<f64>,
     /// Bending stiffness EI [N·m²], ≥ 0. Default 0. A line without bending stiffness carries no compression.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub ei: f64,
     /// Morison drag coefficients. Default: normal 0, tangential 0.
     #[serde(default)]
@@ -195,12 +211,14 @@ pub struct LineType {
     pub added_mass: NormalTangential,
     /// Kelvin–Voigt time constant of axial damping [s], ≥ 0: T = EA(e + damping·de/dt). Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub damping: f64,
     /// Rising (strain, tension [N]) points that replace `ea` beyond the linear law. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension_strain: Option<Vec<[f64; 2]>>,
     /// Breaking load [N], > 0: a warning is given where the tension exceeds it. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub breaking_load: Option<f64>,
     /// Fluid inside a pipe. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -213,9 +231,11 @@ pub struct LineType {
 pub struct NormalTangential {
     /// Across the line [-], ≥ 0. Drag: on `diameter`. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub normal: f64,
     /// Along the line [-], ≥ 0. Drag: on pi·`diameter`. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub tangential: f64,
 }
 
@@ -224,8 +244,10 @@ pub struct NormalTangential {
 #[serde(deny_unknown_fields)]
 pub struct InnerFluid {
     /// Density [kg/m³], ≥ 0.
+    #[schemars(range(min = 0.0))]
     pub density: f64,
     /// Inner area [m²], ≥ 0.
+    #[schemars(range(min = 0.0))]
     pub area: f64,
 }
 
@@ -241,9 +263,11 @@ pub struct Line {
     /// Position of the anchor [m].
     pub anchor: Triple,
     /// Sections from fairlead to anchor, at least one.
+    #[schemars(length(min = 1))]
     pub sections: Vec<Section>,
     /// Clump weights and buoys. Default: none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
     pub attachments: Vec<Attachment>,
 }
 
@@ -255,9 +279,11 @@ pub struct Section {
     #[serde(rename = "type")]
     pub line_type: String,
     /// Unstretched length [m], > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub length: f64,
     /// Number of equal elements, ≥ 1. Default: chosen by the program to meet the tolerance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 20000))]
     pub elements: Option<usize>,
 }
 
@@ -282,7 +308,7 @@ pub struct Attachment {
 }
 
 /// Motion of the fairleads.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Motion {
     /// The fairleads stay where the scene puts them.
@@ -291,6 +317,7 @@ pub enum Motion {
     /// Offset sine·sin(wt) + cosine·cos(wt), w = 2 pi/period, times xi²(3 - 2 xi), xi = t/ramp, until `ramp` seconds.
     Sinusoidal {
         /// Period [s], > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
         period: f64,
         /// Amplitudes of the sine part [m]. Default 0.
         #[serde(default)]
@@ -300,13 +327,66 @@ pub enum Motion {
         cosine: Triple,
         /// Length of the ramp [s], ≥ 0; 0 = none. Default: 3.25 periods.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
         ramp: Option<f64>,
     },
     /// Absolute positions from a CSV file with columns t,x,y,z[,vx,vy,vz]; C1 interpolation.
     File {
         /// Path of the file, relative to the scene file.
+        #[schemars(length(min = 1))]
         path: String,
     },
+}
+
+/// The keys of every kind of motion as one flat object. Read as a tagged enum, an error would not know the key it is about.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotionKeys {
+    kind: MotionKind,
+    period: Option<f64>,
+    sine: Option<Triple>,
+    cosine: Option<Triple>,
+    ramp: Option<f64>,
+    path: Option<String>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum MotionKind {
+    Fixed,
+    Sinusoidal,
+    File,
+}
+
+impl<'de> Deserialize<'de> for Motion {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let MotionKeys { kind, period, sine, cosine, ramp, path } = MotionKeys::deserialize(deserializer)?;
+        let known: &'static [&'static str] = match kind {
+            MotionKind::Fixed => &["kind"],
+            MotionKind::Sinusoidal => &["kind", "period", "sine", "cosine", "ramp"],
+            MotionKind::File => &["kind", "path"],
+        };
+        let given = [
+            ("period", period.is_some()),
+            ("sine", sine.is_some()),
+            ("cosine", cosine.is_some()),
+            ("ramp", ramp.is_some()),
+            ("path", path.is_some()),
+        ];
+        if let Some((key, _)) = given.iter().find(|(key, given)| *given && !known.contains(key)) {
+            return Err(D::Error::unknown_field(key, known));
+        }
+        Ok(match kind {
+            MotionKind::Fixed => Motion::Fixed,
+            MotionKind::Sinusoidal => Motion::Sinusoidal {
+                period: period.ok_or_else(|| D::Error::missing_field("period"))?,
+                sine: sine.unwrap_or_default(),
+                cosine: cosine.unwrap_or_default(),
+                ramp,
+            },
+            MotionKind::File => Motion::File { path: path.ok_or_else(|| D::Error::missing_field("path"))? },
+        })
+    }
 }
 
 /// Duration and output interval of a run.
@@ -315,9 +395,11 @@ pub enum Motion {
 pub struct Run {
     /// Simulated time [s], ≥ 0. Default 120.
     #[serde(default = "default_duration")]
+    #[schemars(range(min = 0.0))]
     pub duration: f64,
     /// Interval of `timeseries.csv` [s], > 0. Default 0.1.
     #[serde(default = "default_output_step")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub output_step: f64,
 }
 
@@ -330,12 +412,15 @@ pub struct Solver {
     pub scheme: Scheme,
     /// Relative accuracy aimed for in the end tension, between 1e-8 and 0.1. Default 1e-3.
     #[serde(default = "default_tolerance")]
+    #[schemars(range(min = 1e-8, max = 0.1))]
     pub tolerance: f64,
     /// Longest time step [s], > 0. Default 0.5.
     #[serde(default = "default_max_step")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub max_step: f64,
     /// Time step without step control [s], > 0. Default: none, the step is controlled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub fixed_step: Option<f64>,
     /// Law of extension. Default `exact`.
     #[serde(default)]
@@ -413,6 +498,21 @@ impl Default for Solver {
             stretch: Stretch::default(),
             hydrostatic_strain: false,
         }
+    }
+}
+
+impl Environment {
+    /// Height of the bed at (x, y) [m]: -depth + x tan(a) + y tan(b).
+    pub fn bed_height(&self, x: f64, y: f64) -> f64 {
+        let [a, b] = self.seabed.slope_deg.map(|slope| slope.to_radians().tan());
+        -self.depth + x * a + y * b
+    }
+
+    /// Whether a point lies below the bed; one exactly on it, up to rounding, does not, and NaN does.
+    pub fn is_below_bed(&self, at: Triple) -> bool {
+        let [a, b] = self.seabed.slope_deg.map(|slope| slope.to_radians().tan());
+        let size = self.depth.abs() + at[2].abs() + (at[0] * a).abs() + (at[1] * b).abs();
+        !(at[2] >= self.bed_height(at[0], at[1]) - 1.0e-9 * size)
     }
 }
 

@@ -1,0 +1,173 @@
+//! The seam between the discrete line and the solvers: `Line`, and `Rod`, its one implementation.
+//!
+//! Below the seam all is monomorphised for the physics that the scene needs; above it nothing is generic.
+
+use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::rod::bending::Bending;
+use crate::rod::element::{self, Motion, Table, Weights};
+use crate::rod::mesh::Mesh;
+use crate::rod::morison::Water;
+use crate::rod::state::Field;
+use crate::rod::stretch::Stretch;
+use crate::rod::touching::{Ground, Surface};
+use nalgebra::Vector3;
+use std::marker::PhantomData;
+
+/// A discrete line: its residual force and the tangent of it.
+pub trait Line: Send + Sync {
+    /// The elements.
+    fn mesh(&self) -> &Mesh;
+    /// Unknowns that are prescribed, as (node, component).
+    fn fixed(&self) -> &[(usize, usize)];
+    /// Residual R [N, N·m]: the force to be applied from outside for this motion. At tied nodes it stands at the second.
+    fn residual(&self, at: &Motion, out: &mut Field);
+    /// c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a. `geometric`, where given, is the tension of the geometric part at each Gauss point [N].
+    fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>);
+    /// M x: the inertia of the line (and of the water moved with it) for accelerations x, everything else at rest [N, N·m].
+    fn inertia(&self, at: &Motion, x: &Field, out: &mut Field);
+    /// Tension at each Gauss point after a change of u, to first order [N]; three per element.
+    fn linear_tensions(&self, u: &Field, change: &Field, out: &mut [f64]);
+    /// Tension at each Gauss point [N]; three per element.
+    fn tensions(&self, u: &Field, v: &Field, out: &mut [f64]);
+    /// Force [N] that the fairlead side exerts on the anchor side at every node (so at the anchor: minus the force on the anchor).
+    fn node_forces(&self, at: &Motion, out: &mut [Vector3<f64>]);
+    /// Force of the line on what holds its fairlead [N].
+    fn end_force(&self, at: &Motion) -> Vector3<f64>;
+    /// Unstretched length in contact with the bed [m].
+    fn grounded_length(&self, u: &Field) -> f64;
+    /// Number of the last node, the fairlead.
+    fn last(&self) -> usize {
+        self.mesh().elements.len()
+    }
+}
+
+/// A line with a law of extension, water and bending chosen at load time.
+pub struct Rod<S, W, B> {
+    mesh: Mesh,
+    table: Table,
+    water: W,
+    ground: Option<Ground>,
+    surface: Option<Surface>,
+    fixed: Vec<(usize, usize)>,
+    loads: Vec<(usize, Vector3<f64>)>,
+    laws: PhantomData<(S, B)>,
+}
+
+/// What holds a line and what pulls at its nodes besides its own loads.
+#[derive(Debug, Clone, Default)]
+pub struct Supports {
+    /// Prescribed unknowns, as (node, component): 0–2 position, 3–5 slope.
+    pub fixed: Vec<(usize, usize)>,
+    /// Dead forces on nodes [N].
+    pub loads: Vec<(usize, Vector3<f64>)>,
+}
+
+impl Supports {
+    /// Both ends pinned, as in a scene.
+    pub fn pinned(mesh: &Mesh) -> Supports {
+        let last = mesh.nodes() - 1;
+        Supports { fixed: [0, last].into_iter().flat_map(|node| (0..3).map(move |c| (node, c))).collect(), loads: Vec::new() }
+    }
+}
+
+impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
+    /// A line of a mesh in given surroundings.
+    pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
+        let table = Table::new(&mesh);
+        Rod { mesh, table, water, ground, surface, fixed: supports.fixed, loads: supports.loads, laws: PhantomData }
+    }
+
+    /// Forces on tied nodes, which have one position, go to the second of them.
+    fn share_ties(&self, out: &mut Field) {
+        for e in (0..self.table.len()).filter(|e| self.table.is_joint(*e)) {
+            out.set_position(e + 1, &(out.position(e + 1) + out.position(e)));
+            out.set_position(e, &Vector3::zeros());
+        }
+    }
+
+    /// What bed and surface add to the forces on the ends of element `e`.
+    fn partial_forces(&self, at: &Motion, e: usize) -> [Option<[Vector3<f64>; 4]>; 2] {
+        let ground = self.ground.as_ref().and_then(|ground| ground.forces(&self.table, at, e));
+        let surface = self.surface.as_ref().and_then(|surface| surface.forces(&self.table, &self.water, at, e));
+        [ground, surface]
+    }
+
+    /// All forces on the ends of element `e`.
+    fn element_forces(&self, at: &Motion, e: usize) -> [Vector3<f64>; 4] {
+        let mut sum = element::forces::<f64, S, W, B>(&self.table, &self.water, at, e);
+        for part in self.partial_forces(at, e).into_iter().flatten() {
+            (0..4).for_each(|k| sum[k] += part[k]);
+        }
+        sum
+    }
+}
+
+impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
+    fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    fn fixed(&self) -> &[(usize, usize)] {
+        &self.fixed
+    }
+
+    fn residual(&self, at: &Motion, out: &mut Field) {
+        out.fill(0.0);
+        element::residual::<f64, S, W, B>(&self.table, &self.water, at, out);
+        for e in 0..self.table.len() {
+            for part in self.partial_forces(at, e).into_iter().flatten() {
+                element::scatter_to_nodes(out, e, self.table.length_of(e), &part);
+            }
+        }
+        for (node, force) in &self.loads {
+            out.set_position(*node, &(out.position(*node) - force));
+        }
+        self.share_ties(out);
+    }
+
+    fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
+        matrix.clear();
+        element::tangent::<S, W, B>(&self.table, &self.water, at, weights, geometric, matrix);
+        for e in 0..self.table.len() {
+            if let Some(ground) = &self.ground {
+                ground.tangent(&self.table, at, e, weights, matrix);
+            }
+            if let Some(surface) = &self.surface {
+                surface.tangent(&self.table, &self.water, at, e, weights, matrix);
+            }
+        }
+    }
+
+    fn inertia(&self, at: &Motion, x: &Field, out: &mut Field) {
+        out.fill(0.0);
+        element::inertia::<W>(&self.table, at.u, x, out);
+        self.share_ties(out);
+    }
+
+    fn linear_tensions(&self, u: &Field, change: &Field, out: &mut [f64]) {
+        element::linear_tensions::<S>(&self.table, u, change, out);
+    }
+
+    fn tensions(&self, u: &Field, v: &Field, out: &mut [f64]) {
+        element::tensions::<S>(&self.table, u, v, out);
+    }
+
+    fn node_forces(&self, at: &Motion, out: &mut [Vector3<f64>]) {
+        for e in 0..self.table.len() {
+            let sum = self.element_forces(at, e);
+            if e == 0 {
+                out[0] = -sum[0];
+            }
+            out[e + 1] = if self.table.is_joint(e) { out[e] } else { sum[2] };
+        }
+    }
+
+    fn end_force(&self, at: &Motion) -> Vector3<f64> {
+        -self.element_forces(at, self.table.len() - 1)[2]
+    }
+
+    fn grounded_length(&self, u: &Field) -> f64 {
+        let Some(ground) = &self.ground else { return 0.0 };
+        (0..self.table.len()).map(|e| ground.grounded_length(&self.table, u, e)).sum()
+    }
+}

@@ -1,0 +1,90 @@
+//! The seabed: a plane bed of springs and dampers that pushes, never pulls.
+//!
+//!     f = max(0, k p - c v_n min(1, p/δ)) N,   p = δ_0 - g > 0,   g = N·(r - r_b)
+//!
+//! N unit normal of the bed, upwards; g height above it [m]; v_n = N·ṙ [m/s]; k stiffness [Pa]; c damping [Pa·s]; f force on
+//! the line per unstretched length [N/m]. Contact starts δ_0 = w N_z / k above the bed, so that a line at rest lies exactly on
+//! it; δ = max(δ_0, d/10) eases the damper in. On an element g is a cubic, so its touching part is found exactly and integrated
+//! with four Gauss points, which are exact for the spring.
+
+use crate::algebra::polynomial::{Cubic, Intervals};
+use crate::scene::types::Environment;
+use nalgebra::{Matrix3, Vector3};
+
+/// The plane of the bed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// Unit normal, upwards.
+    pub normal: Vector3<f64>,
+    /// N·r_b of a point of the bed [m].
+    pub offset: f64,
+}
+
+/// Resistance of the bed against one line type.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resistance {
+    /// k [Pa].
+    pub stiffness: f64,
+    /// c [Pa·s].
+    pub damping: f64,
+    /// δ_0 [m].
+    pub onset: f64,
+    /// δ [m].
+    pub easing: f64,
+}
+
+impl Plane {
+    /// The bed of an environment: z = -depth + x tan(a) + y tan(b).
+    pub fn of(environment: &Environment) -> Plane {
+        let [a, b] = environment.seabed.slope_deg.map(|angle| angle.to_radians().tan());
+        let normal = Vector3::new(-a, -b, 1.0).normalize();
+        Plane { normal, offset: -environment.depth * normal.z }
+    }
+
+    /// Height above the bed, along its normal [m].
+    pub fn height(&self, r: &Vector3<f64>) -> f64 {
+        self.normal.dot(r) - self.offset
+    }
+
+    /// z of the bed under or above a point [m].
+    pub fn level(&self, x: f64, y: f64) -> f64 {
+        (self.offset - self.normal.x * x - self.normal.y * y) / self.normal.z
+    }
+
+    /// Height above the bed along an element with end positions r and end slopes times length l.
+    #[inline(always)]
+    pub fn profile(&self, r0: &Vector3<f64>, l0: &Vector3<f64>, r1: &Vector3<f64>, l1: &Vector3<f64>) -> Cubic {
+        Cubic::hermite(self.height(r0), self.normal.dot(l0), self.height(r1), self.normal.dot(l1))
+    }
+}
+
+impl Resistance {
+    /// The parts of an element that touch, given its height above the bed.
+    pub fn touching(&self, profile: &Cubic) -> Intervals {
+        Cubic(profile.0.map(|g| self.onset - g)).parts_above(0.0)
+    }
+
+    /// Size of the push [N/m] at height g [m] with normal velocity v [m/s].
+    pub fn push(&self, g: f64, v: f64) -> f64 {
+        let penetration = self.onset - g;
+        (self.stiffness * penetration - self.damping * v * (penetration / self.easing).min(1.0)).max(0.0)
+    }
+
+    /// ∂push/∂r = (returned.0) Nᵀ and ∂push/∂ṙ = (returned.1) Nᵀ, as multiples of N Nᵀ.
+    pub fn tangent(&self, g: f64, v: f64) -> (f64, f64) {
+        let penetration = self.onset - g;
+        let eased = penetration / self.easing;
+        if self.push(g, v) <= 0.0 {
+            (0.0, 0.0)
+        } else if eased < 1.0 {
+            (-self.stiffness + self.damping * v / self.easing, -self.damping * eased)
+        } else {
+            (-self.stiffness, -self.damping)
+        }
+    }
+}
+
+/// N Nᵀ.
+pub fn projector(normal: &Vector3<f64>) -> Matrix3<f64> {
+    normal * normal.transpose()
+}

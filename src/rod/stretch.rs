@@ -1,0 +1,129 @@
+//! Axial force of the line at a point, and its tangent.
+//!
+//!     δW = ∫ n·δr′ ds,   n = T t,   T = EA (e + C ė),   e = |r′| - 1,   t = r′/|r′|            (`Exact`, Hooke in engineering strain)
+//!                        n = λ r′,  λ = EA (g + C ġ),   g = (r′·r′ - 1)/2                       (`Report`, Ma & Webster 1994, eq. 2.11)
+//!
+//! r′ slope by unstretched arc length [-], e strain [-], ė its rate [1/s], T effective tension [N] positive pulling, EA [N],
+//! C Kelvin–Voigt time constant [s]. A line without bending stiffness carries no compression: T ≥ 0 (`floor` = 0); the
+//! damped law with that limit is continuous and never gives energy: (T - EA max(e, 0)) ė ≥ 0.
+
+use crate::algebra::lanes::{Real, length};
+use nalgebra::{Matrix3, Vector3};
+
+/// Axial properties of an element.
+#[derive(Debug, Clone, Copy)]
+pub struct Axial<F> {
+    /// EA [N].
+    pub ea: F,
+    /// Kelvin–Voigt time constant [s].
+    pub damping: F,
+    /// Least tension [N]: 0 where the line goes slack, -∞ where bending stiffness carries compression.
+    pub floor: F,
+}
+
+/// Tangent of the axial force: ∂n/∂r′ and ∂n/∂ṙ′ [N].
+#[derive(Debug, Clone, Copy)]
+pub struct AxialTangent {
+    /// ∂n/∂r′ [N].
+    pub by_slope: Matrix3<f64>,
+    /// ∂n/∂ṙ′ [N·s].
+    pub by_rate: Matrix3<f64>,
+}
+
+/// A law of extension.
+pub trait Stretch: Copy + Send + Sync + 'static {
+    /// Axial force n [N] for slope p = r′ and its rate.
+    fn force<F: Real>(law: &Axial<F>, p: &Vector3<F>, rate: &Vector3<F>) -> Vector3<F>;
+    /// Its tangent. `geometric`, where given, replaces the tension in the geometric part (mixed Newton path of statics).
+    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent;
+    /// Signed effective tension |n| [N].
+    fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64;
+    /// Change of the tension for a change of the slope, to first order, without the limit `floor` [N].
+    fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64;
+    /// Strain energy per length [N] of the elastic part.
+    fn energy(law: &Axial<f64>, p: &Vector3<f64>) -> f64;
+}
+
+/// Hooke's law in engineering strain.
+#[derive(Debug, Clone, Copy)]
+pub struct Exact;
+
+impl Stretch for Exact {
+    #[inline(always)]
+    fn force<F: Real>(law: &Axial<F>, p: &Vector3<F>, rate: &Vector3<F>) -> Vector3<F> {
+        let stretch = length(p);
+        let t = p * (F::one() / stretch);
+        let tension = law.ea * (stretch - F::one() + law.damping * t.dot(rate));
+        t * tension.max(law.floor)
+    }
+
+    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
+        let stretch = length(p);
+        let t = p / stretch;
+        let tension = Self::tension(law, p, rate);
+        if tension <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
+            let across = (Matrix3::identity() - t * t.transpose()) * (law.floor.max(0.0) / stretch);
+            return AxialTangent { by_slope: across, by_rate: Matrix3::zeros() };
+        }
+        let along = t * t.transpose();
+        let across = Matrix3::identity() - along;
+        let turning = across * rate * (law.damping / stretch);
+        AxialTangent {
+            by_slope: (along + t * turning.transpose()) * law.ea + across * (geometric.unwrap_or(tension).max(law.floor) / stretch),
+            by_rate: along * (law.ea * law.damping),
+        }
+    }
+
+    fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
+        let stretch = length(p);
+        (law.ea * (stretch - 1.0 + law.damping * p.dot(rate) / stretch)).max(law.floor)
+    }
+
+    fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
+        let stretch = length(p);
+        law.ea * (stretch - 1.0 + p.dot(change) / stretch)
+    }
+
+    fn energy(law: &Axial<f64>, p: &Vector3<f64>) -> f64 {
+        let strain = length(p) - 1.0;
+        if law.ea * strain > law.floor { 0.5 * law.ea * strain * strain } else { 0.0 }
+    }
+}
+
+/// The 1994 report's law, linear in Green's strain.
+#[derive(Debug, Clone, Copy)]
+pub struct Report;
+
+impl Stretch for Report {
+    #[inline(always)]
+    fn force<F: Real>(law: &Axial<F>, p: &Vector3<F>, rate: &Vector3<F>) -> Vector3<F> {
+        let half = F::splat(0.5);
+        let lambda = law.ea * (half * (p.dot(p) - F::one()) + law.damping * p.dot(rate));
+        p * lambda.max(law.floor)
+    }
+
+    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
+        let lambda = law.ea * (0.5 * (p.dot(p) - 1.0) + law.damping * p.dot(rate));
+        if lambda <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
+            return AxialTangent { by_slope: Matrix3::identity() * law.floor.max(0.0), by_rate: Matrix3::zeros() };
+        }
+        AxialTangent {
+            by_slope: (p * p.transpose() + p * rate.transpose() * law.damping) * law.ea
+                + Matrix3::identity() * geometric.unwrap_or(lambda).max(law.floor),
+            by_rate: p * p.transpose() * (law.ea * law.damping),
+        }
+    }
+
+    fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
+        (law.ea * (0.5 * (p.dot(p) - 1.0) + law.damping * p.dot(rate))).max(law.floor) * length(p)
+    }
+
+    fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
+        law.ea * (0.5 * (p.dot(p) - 1.0) + p.dot(change))
+    }
+
+    fn energy(law: &Axial<f64>, p: &Vector3<f64>) -> f64 {
+        let strain = 0.5 * (p.dot(p) - 1.0);
+        if law.ea * strain > law.floor { 0.5 * law.ea * strain * strain } else { 0.0 }
+    }
+}

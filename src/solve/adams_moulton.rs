@@ -1,0 +1,47 @@
+//! The trapezoidal Adams–Moulton step, converged.
+//!
+//!     v₁ = v₀ + h/2 (a₀ + a₁),   u₁ = u₀ + h/2 (v₀ + v₁),   R(u₁, v₁, a₁, t₁) = 0
+//!
+//! Second order, no numerical damping. Local error of u: h²/12 (a₁ - a₀), filtered by the stage matrix.
+
+use crate::rod::element::Weights;
+use crate::rod::state::{Field, State};
+use crate::solve::newton::Stall;
+use crate::solve::scheme::{Bench, Moment, Scheme, largest_position, predict};
+
+/// The scheme and its working space.
+pub struct AdamsMoulton {
+    error: Field,
+    scratch: Field,
+}
+
+impl AdamsMoulton {
+    /// Room for `nodes` nodes.
+    pub fn new(nodes: usize) -> AdamsMoulton {
+        AdamsMoulton { error: Field::new(nodes), scratch: Field::new(nodes) }
+    }
+}
+
+impl Scheme for AdamsMoulton {
+    fn step(&mut self, bench: &mut Bench, from: &Moment, h: f64, next: &mut State) -> Result<f64, Stall> {
+        let start = &from.state;
+        let weights = Weights { u: 0.25 * h * h, v: 0.5 * h, a: 1.0 };
+        predict(from, h, &mut next.a);
+        next.v.set_sum(&start.v, 0.5 * h, &start.a);
+        next.v.add(0.5 * h, &next.a);
+        next.u.set_sum(&start.u, 0.5 * h, &start.v);
+        next.u.add(0.5 * h, &next.v);
+        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.newton.solve(bench.line, &weights, next, &bench.criteria)?;
+
+        self.error.copy_from(&next.a);
+        self.error.add(-1.0, &start.a);
+        self.error.data_mut().iter_mut().for_each(|x| *x *= h * h / 12.0);
+        bench.filter(next, &mut self.error, &mut self.scratch);
+        Ok(largest_position(&self.error))
+    }
+
+    fn error_order(&self) -> f64 {
+        3.0
+    }
+}

@@ -1,0 +1,186 @@
+//! One nonlinear stage: find the increment x with R(u + c_u x, v + c_v x, a + c_a x) = 0 for the unknowns that are free.
+//!
+//! Statics, every scheme and every stage are this problem with other weights. The iteration is a modified Newton method: the factor
+//! of the tangent is kept as long as the iteration contracts well and the weights have not changed much.
+
+use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor, Singular};
+use crate::rod::element::{Motion, Weights};
+use crate::rod::line::Line;
+use crate::rod::state::{COMPONENTS, Field, State};
+
+/// How a stage is to be solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Criteria {
+    /// Increment of u that counts as converged: slopes as they are, positions divided by `length`.
+    pub tolerance: f64,
+    /// Length that scales positions [m].
+    pub length: f64,
+    /// Iterations before giving up.
+    pub iterations: usize,
+}
+
+/// Why a stage was not solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stall {
+    /// The tangent could not be factored at a node.
+    Singular {
+        /// The node.
+        node: usize,
+    },
+    /// The iteration did not contract; the increment was largest at a node.
+    Diverging {
+        /// The node.
+        node: usize,
+    },
+    /// A force or increment was not finite at a node.
+    NotFinite {
+        /// The node.
+        node: usize,
+    },
+}
+
+impl Stall {
+    /// Where it happened.
+    pub fn node(&self) -> usize {
+        match *self {
+            Stall::Singular { node } | Stall::Diverging { node } | Stall::NotFinite { node } => node,
+        }
+    }
+}
+
+/// Work done by the iteration.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Iterations: one residual and one solution each.
+    pub iterations: usize,
+    /// Factorisations.
+    pub factorisations: usize,
+}
+
+/// The solver of stages of one line, with its memory: matrix, factor and the rate at which it contracted last.
+pub struct Newton {
+    matrix: BlockTridiagonal<COMPONENTS>,
+    factor: Factor<COMPONENTS>,
+    factored: Option<Weights>,
+    rate: f64,
+    increment: Field,
+    /// Work done so far.
+    pub effort: Effort,
+}
+
+/// Largest change of c_u (relative) for which an old factor is still tried.
+const STALE: f64 = 0.3;
+/// Contraction beyond which the tangent is factored anew.
+const SLOW: f64 = 0.25;
+
+impl Newton {
+    /// A solver for a line.
+    pub fn new(line: &dyn Line) -> Newton {
+        let nodes = line.mesh().nodes();
+        Newton {
+            matrix: BlockTridiagonal::new(line.mesh().ties()),
+            factor: Factor::new(nodes),
+            factored: None,
+            rate: 1.0,
+            increment: Field::new(nodes),
+            effort: Effort::default(),
+        }
+    }
+
+    /// Forgets the factor, so that what follows depends on the state alone.
+    pub fn forget(&mut self) {
+        self.factored = None;
+        self.rate = 1.0;
+    }
+
+    /// Factors the tangent of a motion.
+    pub fn factor(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: Option<&[f64]>) -> Result<(), Stall> {
+        self.factored = None;
+        line.tangent(at, weights, geometric, &mut self.matrix);
+        for &(node, component) in line.fixed() {
+            self.matrix.fix(node, component);
+        }
+        self.effort.factorisations += 1;
+        self.factor.factor(&self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
+        self.factored = Some(*weights);
+        Ok(())
+    }
+
+    /// Solves with the factor at hand: b becomes the solution; prescribed unknowns stay zero.
+    pub fn solve_linear(&self, line: &dyn Line, b: &mut Field) {
+        for &(node, component) in line.fixed() {
+            b.component_mut(component)[node] = 0.0;
+        }
+        let stride = b.nodes();
+        self.factor.solve(b.data_mut(), stride);
+    }
+
+    /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
+    pub fn solve(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
+        let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
+        if !self.factored.as_ref().is_some_and(fresh) {
+            self.rate = 1.0;
+            self.factor(line, &motion(trial), weights, None)?;
+        }
+        let mut last = f64::INFINITY;
+        let mut new_factor = self.factored == Some(*weights) && self.rate == 1.0;
+        for _ in 0..criteria.iterations {
+            self.effort.iterations += 1;
+            line.residual(&motion(trial), &mut self.increment);
+            let mut increment = std::mem::replace(&mut self.increment, Field::new(0));
+            self.solve_linear(line, &mut increment);
+            self.increment = increment;
+            let (size, node) = self.size(weights.u, criteria.length);
+            if !size.is_finite() {
+                self.forget();
+                return Err(Stall::NotFinite { node });
+            }
+            trial.u.add(-weights.u, &self.increment);
+            trial.v.add(-weights.v, &self.increment);
+            trial.a.add(-weights.a, &self.increment);
+            let contraction = size / last;
+            if last.is_finite() {
+                self.rate = contraction.max(0.3 * self.rate).min(1.0);
+            }
+            if size * (self.rate / (1.0 - self.rate).max(0.1)).min(1.0) < criteria.tolerance {
+                return Ok(());
+            }
+            if contraction > 2.0 && new_factor {
+                self.forget();
+                return Err(Stall::Diverging { node });
+            }
+            if contraction > SLOW {
+                self.factor(line, &motion(trial), weights, None)?;
+                new_factor = true;
+            }
+            last = size;
+        }
+        let node = self.size(weights.u, criteria.length).1;
+        self.forget();
+        Err(Stall::Diverging { node })
+    }
+
+    /// Largest scaled increment and its node.
+    fn size(&self, c_u: f64, length: f64) -> (f64, usize) {
+        let mut largest = (0.0, 0);
+        for c in 0..COMPONENTS {
+            let scale = c_u.abs() / if c < 3 { length } else { 1.0 };
+            for (node, x) in self.increment.component(c).iter().enumerate() {
+                let size = (x * scale).abs();
+                // Written so that NaN is the largest of all.
+                if !(size <= largest.0) {
+                    largest = (size, node);
+                    if size.is_nan() {
+                        return largest;
+                    }
+                }
+            }
+        }
+        largest
+    }
+}
+
+/// The motion of a state.
+pub fn motion(state: &State) -> Motion<'_> {
+    Motion { u: &state.u, v: &state.v, a: &state.a }
+}
