@@ -8,13 +8,16 @@ use crate::fmi::refusal::Refusal;
 use crate::fmi::resource;
 use crate::fmi::snapshot::{Moment, State};
 use crate::fmi::variables::{DEFAULT_STEP, Interface, Interpolation, Kind, LOG_CATEGORIES, Meaning, Variable};
-use crate::scene::types::Scene;
+use crate::scene::check;
+use crate::scene::types::{Motion, Scene};
 use crate::solve::simulation::{LastStep, Outputs, Simulation};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// Longest communication step [s]; more is a mistake of units or an uninitialised number.
 const LONGEST_STEP: f64 = 1.0e6;
+/// Shortest communication step [s]; less drowns in rounding wherever the solver divides by its square.
+const SHORTEST_STEP: f64 = 1.0e-9;
 /// Two times are the same if they differ by less than this part of their size.
 const SAME_TIME: f64 = 1.0e-9;
 
@@ -446,6 +449,7 @@ impl Instance {
         if let Some(line) = scene.lines.first_mut() {
             line.fairlead = origin;
         }
+        check::check(&Scene { motion: Motion::Fixed, ..scene.clone() }, "parameters").map_err(|error| self.refusal(error))?;
         let simulation = Simulation::new(&scene, 0).map_err(|error| self.refusal(error))?;
         Ok(BuiltLine { simulation, parameters, origin, tolerance: experiment.tolerance, interpolation: settings.interpolation })
     }
@@ -454,8 +458,9 @@ impl Instance {
     fn refusal(&self, error: Error) -> Refusal {
         match error {
             Error::Value { place, value, allowed, .. } => {
-                Refusal::Parameter { name: self.interface.parameter_at(&place), value, allowed }
+                Refusal::Parameter { name: self.interface.variable_at(&place), value, allowed }
             }
+            Error::Reach(_) => Refusal::Reach(error),
             other => Refusal::Solver(other),
         }
     }
@@ -481,8 +486,8 @@ impl Instance {
     /// Checks the master's step against our clock; the end it means.
     fn end_of_step(&self, time: f64, step: f64) -> Result<f64, Refusal> {
         let refuse = |allowed| Err(Refusal::StepSize { time, step, allowed });
-        if !(step > 0.0) {
-            return refuse("it must be positive");
+        if !(step >= SHORTEST_STEP) {
+            return refuse("it must be positive, a nanosecond or more");
         }
         if !(step <= LONGEST_STEP) {
             return refuse("a million seconds is the limit");

@@ -132,13 +132,16 @@ pub enum Refusal {
         /// Why not further.
         cause: String,
     },
+    /// The line does not reach from fairlead to anchor.
+    #[error("line.length, fairlead.position and anchor.position do not fit together: {0}")]
+    Reach(Error),
     /// The line could not be put in equilibrium, or a step could not be done at all.
     #[error("{0}")]
     Solver(Error),
-    /// A parameter, alone or with others, describes no possible line.
-    #[error("parameter {name}: {value} is not allowed: {allowed}")]
+    /// A parameter or the fairlead's position, alone or with others, describes no possible line.
+    #[error("{name}: {value} is not allowed: {allowed}")]
     Parameter {
-        /// The parameter.
+        /// The variable.
         name: String,
         /// Its value.
         value: String,

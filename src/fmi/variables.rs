@@ -408,19 +408,19 @@ impl Interface {
         Ok(settings)
     }
 
-    /// The parameter that a place of the scene (as in `Error::Value`) speaks of; the place itself where no parameter does.
-    pub fn parameter_at(&self, place: &str) -> String {
+    /// The variable that a place of the scene (as in `Error::Value`) speaks of; the place itself where none does.
+    pub fn variable_at(&self, place: &str) -> String {
         let mut settings = self.settings.clone();
-        for variable in &self.variables {
-            if let Meaning::Parameter(parameter) = variable.meaning {
-                if let Some((_, end)) = parameter.field(&mut settings) {
-                    if place == end || place.ends_with(&format!(".{end}")) {
-                        return variable.name.clone();
-                    }
-                }
-            }
+        let speaks_of = |end: &str| place == end || place.ends_with(&format!(".{end}"));
+        if speaks_of("fairlead") {
+            return "fairlead.position".to_owned();
         }
-        place.to_owned()
+        let named = self.variables.iter().find(|variable| match variable.meaning {
+            Meaning::Parameter(parameter) => parameter.field(&mut settings).is_some_and(|(_, end)| speaks_of(end)),
+            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => false,
+        });
+        let name = named.map_or(place, |variable| variable.name.as_str());
+        name.strip_suffix(".x").unwrap_or(name).to_owned()
     }
 }
 
