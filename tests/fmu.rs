@@ -72,7 +72,7 @@ fn standalone() -> Result<String, String> {
 fn prepared() -> &'static Result<(PathBuf, PathBuf), String> {
     static PREPARED: OnceLock<Result<(PathBuf, PathBuf), String>> = OnceLock::new();
     PREPARED.get_or_init(|| {
-        let folder = FileFilePath::new(env!("CARGO_TARGET_TMPDIR")).join("fmu");
+        let folder = FilePath::new(env!("CARGO_TARGET_TMPDIR")).join("fmu");
         std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
         let fmu = folder.join("moorline.fmu");
         std::fs::write(folder.join("standalone.csv"), standalone()?).map_err(|error| error.to_string())?;
