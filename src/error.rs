@@ -68,49 +68,11 @@ pub enum Error {
         feature: String,
     },
     /// No static equilibrium was found.
-    #[error(
-        "line \"{line}\": no static equilibrium after {iterations} iterations: near s = {s:.6} m ({zone}) a force of {residual:.3e} N is \
-         not balanced (allowed: {allowed:.3e} N). {remedy}"
-    )]
-    Statics {
-        /// Name of the line.
-        line: String,
-        /// Newton iterations done.
-        iterations: usize,
-        /// Largest unbalanced nodal force [N].
-        residual: f64,
-        /// Unbalanced force that counts as equilibrium [N].
-        allowed: f64,
-        /// Arc length of the largest unbalanced force [m from the fairlead].
-        s: f64,
-        /// What is there: fairlead, anchor, touchdown, suspended, grounded.
-        zone: String,
-        /// What to try.
-        remedy: String,
-    },
-    /// A time step could not be taken; the line stands as it was at `last_good_time`.
-    #[error(
-        "line \"{line}\", t = {time:.6} s, near s = {s:.6} m ({zone}): {cause} even with a step of {step:.1e} s. {remedy} \
-         The line stands as it was at t = {last_good_time:.6} s."
-    )]
-    Step {
-        /// Name of the line.
-        line: String,
-        /// Time of the attempt [s].
-        time: f64,
-        /// Where on the line [m from the fairlead].
-        s: f64,
-        /// What is there.
-        zone: String,
-        /// What failed.
-        cause: String,
-        /// Smallest step tried [s].
-        step: f64,
-        /// What to change.
-        remedy: String,
-        /// Time of the last good state [s].
-        last_good_time: f64,
-    },
+    #[error(transparent)]
+    Statics(Box<Unbalanced>),
+    /// A time step could not be taken; the line stands as it was before.
+    #[error(transparent)]
+    Step(Box<Stuck>),
     /// The user stopped the run; what was written is complete up to this time.
     #[error("stopped by the user at t = {time} s; all rows written are complete")]
     Interrupted {
@@ -129,7 +91,7 @@ impl Error {
             | Error::Value { .. }
             | Error::Reach(_)
             | Error::Unsupported { .. } => 2,
-            Error::Statics { .. } | Error::Step { .. } => 3,
+            Error::Statics(_) | Error::Step(_) => 3,
             Error::Interrupted { .. } => 130,
         }
     }
@@ -267,6 +229,115 @@ pub enum Limit {
     /// It would be pulled to more than twice its length.
     #[error("more than 100 % is not modelled")]
     Doubles,
+}
+
+/// No static equilibrium was found.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "line \"{line}\": no static equilibrium after {iterations} iterations: near s = {s:.1} m ({zone}) a force of {residual:.3e} N is not \
+     balanced (allowed: {allowed:.1e} N). Check length, weight and ends of the line; a coarser or finer mesh (`elements`), a little \
+     bending stiffness (`ei`) or a stiffness `ea` closer to the real one may help."
+)]
+pub struct Unbalanced {
+    /// Name of the line.
+    pub line: String,
+    /// Newton iterations done.
+    pub iterations: usize,
+    /// Largest unbalanced nodal force [N].
+    pub residual: f64,
+    /// Unbalanced force that counts as equilibrium [N].
+    pub allowed: f64,
+    /// Arc length of the largest unbalanced force [m from the fairlead].
+    pub s: f64,
+    /// What is there.
+    pub zone: Zone,
+}
+
+/// A time step could not be taken.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "line \"{line}\", t = {time:.4} s, near s = {s:.1} m ({zone}): {cause}. The fairlead moves at {fairlead_speed:.3} m/s there. \
+     The line stands as it was at t = {last_good_time:.4} s."
+)]
+pub struct Stuck {
+    /// Name of the line.
+    pub line: String,
+    /// Time of the attempt [s].
+    pub time: f64,
+    /// Where on the line [m from the fairlead].
+    pub s: f64,
+    /// What is there.
+    pub zone: Zone,
+    /// What failed.
+    pub cause: Cause,
+    /// Speed of the fairlead at that time [m/s].
+    pub fairlead_speed: f64,
+    /// Time of the last good state [s].
+    pub last_good_time: f64,
+}
+
+/// Part of a line, in a naval architect's words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum Zone {
+    /// The upper end.
+    #[error("fairlead")]
+    Fairlead,
+    /// The lower end.
+    #[error("anchor")]
+    Anchor,
+    /// Where the line lands on the bed.
+    #[error("touchdown")]
+    Touchdown,
+    /// On the bed.
+    #[error("on the bed")]
+    Grounded,
+    /// Between bed and surface.
+    #[error("suspended")]
+    Suspended,
+}
+
+/// Why a time step could not be taken.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Cause {
+    /// The nonlinear iteration fails.
+    #[error(
+        "no solution even with a step of {step:.0e} s; look for a jump in the motion, a mesh too coarse there or an extreme stiffness"
+    )]
+    NoSolution {
+        /// Smallest step tried [s].
+        step: f64,
+    },
+    /// The error estimate stays too large.
+    #[error(
+        "the error stays above the tolerance even with a step of {step:.0e} s; look for a jump in the motion, or loosen solver.tolerance"
+    )]
+    TooInaccurate {
+        /// Smallest step tried [s].
+        step: f64,
+    },
+    /// A number is not finite.
+    #[error("a force is not finite even with a step of {step:.0e} s; look for a jump in the motion or an extreme property")]
+    NotFinite {
+        /// Smallest step tried [s].
+        step: f64,
+    },
+    /// The path does not begin where the fairlead is.
+    #[error("the fairlead is asked to jump by {distance:.3} m; its motion must be continuous")]
+    Jump {
+        /// Length of the jump [m].
+        distance: f64,
+    },
+    /// The fairlead is farther from the anchor than the line can stretch.
+    #[error("the fairlead is {distance:.1} m from the anchor, more than twice the {length:.1} m of line")]
+    OutOfReach {
+        /// Distance [m].
+        distance: f64,
+        /// Unstretched length [m].
+        length: f64,
+    },
+    /// The motion holds a number that is not finite.
+    #[error("the motion of the fairlead is not finite")]
+    BadMotion,
 }
 
 /// The known name that looks most like `name`, if one looks like it at all.

@@ -6,7 +6,18 @@
 #![warn(missing_docs)]
 
 /// Command line: one function per command. Uses everything, used by nothing.
-pub mod cli;
+pub mod cli {
+    pub mod arguments;
+    pub mod check;
+    pub mod console;
+    pub mod convert;
+    pub mod interrupt;
+    pub mod pack;
+    pub mod progress;
+    pub mod run;
+    pub mod schema;
+    pub mod statics;
+}
 /// Every failure as data, and the only file that words it.
 pub mod error;
 
@@ -54,14 +65,15 @@ pub mod solve {
     pub mod controller;
     pub mod esdirk;
     pub mod generalized_alpha;
-    pub mod motion;
     pub mod meshing;
+    pub mod motion;
     pub mod newton;
     pub mod outputs;
     pub mod scheme;
+    pub mod simulation;
+    pub mod snapshot;
     pub mod start;
     pub mod statics;
-    pub mod simulation;
 }
 
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.
@@ -80,6 +92,11 @@ pub mod fmi {
 /// What a run leaves behind: tables and a page to look at.
 pub mod report {
     pub mod page;
+    pub mod page_data;
     pub mod record;
+    #[cfg(test)]
+    pub mod sample;
+    pub mod schedule;
     pub mod tables;
+    pub mod units;
 }

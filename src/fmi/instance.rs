@@ -534,22 +534,23 @@ impl Instance {
         Ok(())
     }
 
-    /// After a failure: goes as far as the solver came, so that the master learns how far that is.
+    /// After a failure: goes as far as the solver came, or half of it, so that the master learns how far that is.
     fn step_in_part(&mut self, plan: &Plan, segment: &Segment, until: f64, error: Error) -> Refusal {
-        let reached = match &error {
-            Error::Step { last_good_time, .. } if *last_good_time < until => *last_good_time,
-            _ => f64::NEG_INFINITY,
+        let stuck_at = match &error {
+            Error::Step(stuck) => stuck.time.min(until),
+            _ => self.moment.clock,
         };
-        let worth_it = reached - self.moment.clock > SAME_TIME * (until - self.moment.clock);
-        let line = self.line.as_mut().filter(|_| worth_it);
-        if line.is_some_and(|line| line.simulation.advance(reached, &segment.path()).is_ok()) {
-            match self.arrive(plan, segment, reached) {
-                Ok(()) => {
-                    self.moment.phase = Phase::StepFailed;
-                    self.moment.step_status = StepStatus::Discarded;
-                    return Refusal::Discarded { until, reached, cause: error.to_string() };
+        for part in [0.9, 0.5] {
+            let reached = self.moment.clock + part * (stuck_at - self.moment.clock);
+            let worth_it = reached - self.moment.clock > 1e-3 * (until - self.moment.clock);
+            let line = self.line.as_mut().filter(|_| worth_it);
+            if line.is_some_and(|line| line.simulation.advance(reached, &segment.path()).is_ok()) {
+                if let Err(refusal) = self.arrive(plan, segment, reached) {
+                    return refusal;
                 }
-                Err(refusal) => return refusal,
+                self.moment.phase = Phase::StepFailed;
+                self.moment.step_status = StepStatus::Discarded;
+                return Refusal::Discarded { until, reached, cause: error.to_string() };
             }
         }
         self.moment.phase = Phase::Error;
@@ -606,9 +607,9 @@ impl Instance {
         Ok(self.moment.clock)
     }
 
-    fn state(&self) -> State {
+    fn state(&mut self) -> State {
         let running = matches!(self.moment.phase, Phase::StepComplete | Phase::StepFailed | Phase::Terminated);
-        let line = self.line.as_ref().filter(|_| running).map(|line| line.simulation.snapshot());
+        let line = self.line.as_mut().filter(|_| running).map(|line| line.simulation.snapshot());
         State { moment: self.moment.clone(), line }
     }
 
@@ -660,8 +661,8 @@ impl Instance {
                 }
             }
         }
-        if let Some(line) = &mut self.line {
-            line.simulation.restore(snapshot);
+        if !self.line.as_mut().is_some_and(|line| line.simulation.restore(snapshot)) {
+            return Err(Refusal::Serialized("its line has another mesh"));
         }
         self.moment.clone_from(moment);
         Ok(())

@@ -7,7 +7,8 @@ use crate::fmi::input_path::{CAPACITY, InputPath, Inputs, Sample};
 use crate::fmi::instance::{Experiment, Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource::fingerprint;
-use crate::solve::simulation::{LastStep, Outputs, Snapshot};
+use crate::solve::simulation::{LastStep, Outputs};
+use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
 
 const MAGIC: &[u8; 8] = b"MOORLINE";

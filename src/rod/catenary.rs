@@ -203,14 +203,8 @@ mod tests {
         let Catenary::Hanging { horizontal, at_anchor } = suspended.solve() else { panic!() };
         assert!((horizontal / 187174.339285 - 1.0).abs() < 1e-9);
         assert!((at_anchor / -37478.714088 - 1.0).abs() < 1e-9);
-        let touching = Span {
-            distance: 1183.97,
-            anchor_height: 0.0,
-            fairlead_height: 120.0,
-            length: 1200.0,
-            weight: 1157.1590775,
-            ea: 5e8,
-        };
+        let touching =
+            Span { distance: 1183.97, anchor_height: 0.0, fairlead_height: 120.0, length: 1200.0, weight: 1157.1590775, ea: 5e8 };
         let Catenary::Lying { horizontal, at_fairlead, .. } = touching.solve() else { panic!() };
         assert!((horizontal / 1193837.50353 - 1.0).abs() < 1e-9);
         assert!((at_fairlead / 591523.225065 - 1.0).abs() < 1e-9);
@@ -221,8 +215,7 @@ mod tests {
     fn shapes_of_every_length_reach_the_fairlead() {
         for length in [130.0, 157.0, 170.0, 200.0, 219.0, 221.0, 300.0, 1000.0] {
             for distance in [0.0, 1.0, 100.0] {
-                let span =
-                    Span { distance, anchor_height: 20.0, fairlead_height: 120.0, length, weight: 1000.0, ea: 1e8 };
+                let span = Span { distance, anchor_height: 20.0, fairlead_height: 120.0, length, weight: 1000.0, ea: 1e8 };
                 let shape = span.solve();
                 let end = span.at(&shape, length).0;
                 assert!((end - Vector3::new(distance, 120.0, 0.0)).norm() < 1e-4 * length, "{span:?} {shape:?} {end:?}");

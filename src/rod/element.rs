@@ -304,7 +304,8 @@ pub fn inertia<W: Water>(table: &Table, u: &Field, x: &Field, out: &mut Field) {
             let mut force = x * table.mass[e];
             if W::PRESENT {
                 let p = ends.combine(&shape.slope);
-                force += x * k.added_normal + p * ((k.added_tangential - k.added_normal) * p.dot(&x) / p.dot(&p).max(f64::MIN_POSITIVE));
+                force += x * k.added_normal
+                    + p * ((k.added_tangential - k.added_normal) * p.dot(&x) / p.dot(&p).max(f64::MIN_POSITIVE));
             }
             force *= gauss.weight * table.measure[e];
             for k in 0..4 {

@@ -47,10 +47,12 @@ pub struct Rules {
     pub shortest: f64,
 }
 
-/// Elements per line away from the bed, at refinement 1.
-const COARSE: f64 = 10.0;
+/// Elements per line where it hangs free, at refinement 1.
+const HANGING: f64 = 15.0;
+/// Elements per line where it is carried, at refinement 1.
+const CARRIED: f64 = 7.0;
 /// Decay lengths per element on the touchdown zone, at refinement 1.
-const DECAY_LENGTHS: f64 = 2.0;
+const DECAY_LENGTHS: f64 = 2.4;
 /// Elements per transverse wave length.
 const PER_WAVE: f64 = 5.0;
 /// Largest ratio of neighbouring element lengths.
@@ -87,7 +89,7 @@ fn decay_length(rules: &Rules, tension: f64) -> f64 {
 }
 
 fn free_size(rules: &Rules, sample: &Sample) -> f64 {
-    let share = rules.length / (COARSE * rules.refinement);
+    let share = rules.length / (rules.refinement * if sample.carried { CARRIED } else { HANGING });
     let wave = (sample.tension.max(0.0) / rules.mass).sqrt() * rules.period / (PER_WAVE * rules.refinement.sqrt());
     if rules.period > 0.0 && !sample.carried { share.min(wave) } else { share }
 }

@@ -33,8 +33,12 @@ pub trait Line: Send + Sync {
     fn node_forces(&self, at: &Motion, out: &mut [Vector3<f64>]);
     /// Force of the line on what holds its fairlead [N].
     fn end_force(&self, at: &Motion) -> Vector3<f64>;
+    /// Unstretched length of element `e` in contact with the bed [m].
+    fn touching_length(&self, u: &Field, e: usize) -> f64;
     /// Unstretched length in contact with the bed [m].
-    fn grounded_length(&self, u: &Field) -> f64;
+    fn grounded_length(&self, u: &Field) -> f64 {
+        (0..self.mesh().elements.len()).map(|e| self.touching_length(u, e)).sum()
+    }
     /// Number of the last node, the fairlead.
     fn last(&self) -> usize {
         self.mesh().elements.len()
@@ -166,8 +170,7 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
         -self.element_forces(at, self.table.len() - 1)[2]
     }
 
-    fn grounded_length(&self, u: &Field) -> f64 {
-        let Some(ground) = &self.ground else { return 0.0 };
-        (0..self.table.len()).map(|e| ground.grounded_length(&self.table, u, e)).sum()
+    fn touching_length(&self, u: &Field, e: usize) -> f64 {
+        self.ground.as_ref().map_or(0.0, |ground| ground.touching_length(&self.table, u, e))
     }
 }

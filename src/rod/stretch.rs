@@ -69,7 +69,8 @@ impl Stretch for Exact {
         let across = Matrix3::identity() - along;
         let turning = across * rate * (law.damping / stretch);
         AxialTangent {
-            by_slope: (along + t * turning.transpose()) * law.ea + across * (geometric.unwrap_or(tension).max(law.floor) / stretch),
+            by_slope: (along + t * turning.transpose()) * law.ea
+                + across * (geometric.unwrap_or(tension).max(law.floor) / stretch),
             by_rate: along * (law.ea * law.damping),
         }
     }

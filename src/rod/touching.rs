@@ -88,7 +88,7 @@ impl Ground {
     }
 
     /// Unstretched length of element `e` in contact [m].
-    pub fn grounded_length(&self, table: &Table, u: &Field, e: usize) -> f64 {
+    pub fn touching_length(&self, table: &Table, u: &Field, e: usize) -> f64 {
         self.near(table, u, e).map_or(0.0, |(_, profile)| self.resistance[e].touching(&profile).length() * table.length_of(e))
     }
 }

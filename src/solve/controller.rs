@@ -1,11 +1,9 @@
 //! From one time to another: pick a step, try it, accept or shrink, land on the end exactly, give up honestly.
 
-use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
 use crate::scene::types;
 use crate::solve::esdirk::{Esdirk, TR_BDF2};
-use crate::solve::motion::Path;
-use crate::solve::newton::{Criteria, Newton, Stall};
+use crate::solve::newton::{Criteria, Stall};
 use crate::solve::scheme::{self, Bench, Moment, Scheme};
 
 /// What a run demands of its steps.
@@ -71,15 +69,12 @@ impl Controller {
     /// Advances `moment` to `until`, calling `accepted` after each step. On a failure `moment` stands at the last accepted step.
     pub fn advance(
         &mut self,
-        line: &dyn Line,
-        newton: &mut Newton,
-        path: &Path,
+        bench: &mut Bench,
         demands: &Demands,
         moment: &mut Moment,
         until: f64,
         mut accepted: impl FnMut(&Moment),
     ) -> Result<(), Failure> {
-        let mut bench = Bench { line, newton, path, criteria: demands.criteria };
         let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.time) * 0.5f64.powi(HALVINGS);
         let mut trouble = 0;
         while until - moment.time > 1e-12 * until.abs().max(1.0) {
@@ -91,9 +86,9 @@ impl Controller {
             let count = (remaining / wanted - 1e-6).ceil().max(1.0);
             let h = remaining / count;
             let outcome = if trouble >= 3 {
-                self.guard.step(&mut bench, moment, h, &mut self.next)
+                self.guard.step(bench, moment, h, &mut self.next)
             } else {
-                self.scheme.step(&mut bench, moment, h, &mut self.next)
+                self.scheme.step(bench, moment, h, &mut self.next)
             };
             let verdict = match outcome {
                 Ok(error) => Ok(error / (demands.error_rate * h)),
@@ -118,7 +113,8 @@ impl Controller {
                         moment.last_step = 0.0;
                         bench.newton.forget();
                     }
-                    let shrink = verdict.map_or(0.5, |ratio| (0.9 * ratio.powf(-1.0 / (self.scheme.error_order() - 1.0))).clamp(0.2, 0.9));
+                    let shrink =
+                        verdict.map_or(0.5, |ratio| (0.9 * ratio.powf(-1.0 / (self.scheme.error_order() - 1.0))).clamp(0.2, 0.9));
                     moment.step = h * if shrink.is_finite() { shrink } else { 0.2 };
                     if moment.step < smallest {
                         return Err(Failure { time: moment.time + h, step: h, stall });

@@ -8,6 +8,8 @@ use crate::scene::types::{Line, Motion, Scene, Surface};
 use crate::solve::start::{Bounds, Frame};
 use nalgebra::Vector3;
 
+/// Inertia and drag move the touchdown farther than the fairlead's motion would at rest: the motion counts this many times.
+const DYNAMIC: f64 = 1.6;
 /// Samples along the line on which the grading is based.
 const SAMPLES: usize = 400;
 
@@ -78,14 +80,14 @@ fn wanted(scene: &Scene, line: &Line, sections: &[Properties], given: &[(f64, Op
     grading::stations(&rules, &positions)
 }
 
-/// Where the fairlead may be: its place in the scene and the extremes of its motion.
+/// Places of the fairlead, at rest, that bound what its motion does to the line.
 fn fairlead_places(motion: &Motion, fairlead: &Vector3<f64>) -> Vec<Vector3<f64>> {
     let mut places = vec![*fairlead];
     if let Motion::Sinusoidal { sine, cosine, .. } = motion {
         let (sine, cosine) = (Vector3::from(*sine), Vector3::from(*cosine));
         for k in 0..8 {
             let (s, c) = (k as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
-            places.push(fairlead + sine * s + cosine * c);
+            places.push(fairlead + (sine * s + cosine * c) * DYNAMIC);
         }
     }
     places
@@ -113,12 +115,12 @@ impl Frame {
             Catenary::Lying { horizontal, at_anchor, at_fairlead } => {
                 let (s_a, s_f) = (at_anchor / w, self.span.length - at_fairlead / w);
                 let lifted = (s_a - s).max(s - s_f);
-                (horizontal.max(slack).hypot(w * lifted.max(0.0)), lifted < 0.0)
+                (horizontal.max(slack).hypot(w * lifted.max(0.0)), lifted <= 0.0)
             }
             Catenary::Piled => {
                 let s_f = self.span.length - self.span.fairlead_height;
                 let lifted = (self.span.anchor_height - s).max(s - s_f);
-                (slack.hypot(w * lifted.max(0.0)), lifted < 0.0)
+                (slack.hypot(w * lifted.max(0.0)), lifted <= 0.0)
             }
         }
     }

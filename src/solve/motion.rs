@@ -1,7 +1,9 @@
 //! Paths of a fairlead: position, velocity and acceleration at any time.
 
 use crate::algebra::shape::Shape;
-use crate::scene::types::Triple;
+use crate::scene::motion_file::Table;
+use crate::scene::read::Loaded;
+use crate::scene::types::Motion;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -45,18 +47,23 @@ pub enum Path {
     },
 }
 
-/// Times, positions and velocities of a measured or computed motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Table {
-    /// Times [s], rising.
-    pub times: Vec<f64>,
-    /// Positions [m].
-    pub positions: Vec<Triple>,
-    /// Velocities [m/s].
-    pub velocities: Vec<Triple>,
-}
-
 impl Path {
+    /// The motion of the fairlead of line `index` of a scene.
+    pub fn of_scene(loaded: &Loaded, index: usize) -> Path {
+        let origin = loaded.scene.lines.get(index).map_or(Vector3::zeros(), |line| line.fairlead.into());
+        match (&loaded.scene.motion, &loaded.motion) {
+            (Motion::Sinusoidal { period, sine, cosine, ramp }, _) => Path::Sinusoidal {
+                origin,
+                omega: 2.0 * std::f64::consts::PI / period,
+                sine: (*sine).into(),
+                cosine: (*cosine).into(),
+                ramp: ramp.unwrap_or(3.25 * period),
+            },
+            (Motion::File { .. }, Some(table)) => Path::Table(Arc::clone(table)),
+            _ => Path::Fixed(origin),
+        }
+    }
+
     /// Kinematics at a time.
     pub fn at(&self, time: f64) -> Kinematics {
         match self {
@@ -67,13 +74,9 @@ impl Path {
                 let v = (sine * cos - cosine * sin) * *omega;
                 let a = -x * (omega * omega);
                 let (s, s1, s2) = ramp_at(time, *ramp);
-                Kinematics {
-                    position: origin + x * s,
-                    velocity: v * s + x * s1,
-                    acceleration: a * s + v * (2.0 * s1) + x * s2,
-                }
+                Kinematics { position: origin + x * s, velocity: v * s + x * s1, acceleration: a * s + v * (2.0 * s1) + x * s2 }
             }
-            Path::Table(table) => table.at(time),
+            Path::Table(table) => interpolate(table, time),
             Path::Polynomial { start, coefficients } => {
                 let tau = time - start;
                 let mut k = Kinematics::at_rest(Vector3::zeros());
@@ -104,20 +107,49 @@ fn ramp_at(time: f64, ramp: f64) -> (f64, f64, f64) {
     (xi * xi * (3.0 - 2.0 * xi), 6.0 * xi * (1.0 - xi) / ramp, (6.0 - 12.0 * xi) / (ramp * ramp))
 }
 
-impl Table {
-    /// Cubic Hermite interpolation; before the first and after the last row the fairlead rests there.
-    fn at(&self, time: f64) -> Kinematics {
-        let after = self.times.partition_point(|t| *t <= time);
-        let position = |row: usize| Vector3::from(self.positions[row]);
-        if after == 0 || after == self.times.len() {
-            return Kinematics::at_rest(position(after.min(self.times.len() - 1)));
+/// Cubic Hermite interpolation of a table; before the first and after the last row the fairlead rests there.
+fn interpolate(table: &Table, time: f64) -> Kinematics {
+    let after = table.times.partition_point(|t| *t <= time);
+    let position = |row: usize| Vector3::from(table.positions[row]);
+    if after == 0 || after == table.times.len() {
+        return Kinematics::at_rest(position(after.min(table.times.len() - 1)));
+    }
+    let row = after - 1;
+    let h = table.times[after] - table.times[row];
+    let shape = Shape::at((time - table.times[row]) / h).scaled(h);
+    let ends = [position(row), table.velocities[row].into(), position(after), table.velocities[after].into()];
+    let sum = |n: &[f64; 4]| (0..4).map(|k| ends[k] * n[k]).sum();
+    Kinematics { position: sum(&shape.value), velocity: sum(&shape.slope), acceleration: sum(&shape.curvature) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Velocity and acceleration of every kind of path are the differences of its position (step 1e-4 s, error of order 1e-8).
+    #[test]
+    fn rates_are_those_of_the_position() {
+        let table = Table {
+            times: vec![0.0, 1.0, 3.0],
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 2.0, 0.5], [0.0, 1.0, 0.0]],
+            velocities: vec![[0.0, 0.0, 0.0], [0.5, 0.1, 0.0], [0.0, 0.0, 0.0]],
+        };
+        let (sine, cosine) = (Vector3::new(5.0, 2.0, 1.0), Vector3::new(0.3, 0.0, 1.0));
+        let paths = [
+            Path::Sinusoidal { origin: Vector3::x(), omega: 0.9, sine, cosine, ramp: 20.0 },
+            Path::Sinusoidal { origin: Vector3::x(), omega: 0.9, sine, cosine, ramp: 0.0 },
+            Path::Table(Arc::new(table)),
+            Path::Polynomial { start: 1.0, coefficients: vec![sine, cosine, sine, cosine] },
+        ];
+        let d = 1e-4;
+        for path in paths {
+            for time in [0.4, 2.3] {
+                let (before, here, after) = (path.at(time - d), path.at(time), path.at(time + d));
+                let velocity = (after.position - before.position) / (2.0 * d);
+                let acceleration = (after.velocity - before.velocity) / (2.0 * d);
+                assert!((velocity - here.velocity).norm() < 1e-6, "{path:?}");
+                assert!((acceleration - here.acceleration).norm() < 1e-6, "{path:?}");
+            }
         }
-        let row = after - 1;
-        let h = self.times[after] - self.times[row];
-        let x = (time - self.times[row]) / h;
-        let shape = Shape::at(x).scaled(h);
-        let ends = [position(row), self.velocities[row].into(), position(after), self.velocities[after].into()];
-        let sum = |n: &[f64; 4]| (0..4).map(|k| ends[k] * n[k]).sum();
-        Kinematics { position: sum(&shape.value), velocity: sum(&shape.slope), acceleration: sum(&shape.curvature) }
     }
 }

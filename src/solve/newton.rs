@@ -7,6 +7,8 @@ use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor, Singular};
 use crate::rod::element::{Motion, Weights};
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
+use nalgebra::{Matrix3, SVector};
+use std::ops::AddAssign;
 
 /// How a stage is to be solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,6 +106,37 @@ impl Newton {
         self.factor.factor(&self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
         self.factored = Some(*weights);
         Ok(())
+    }
+
+    /// Static stiffness of the line against its fairlead, ∂R/∂x condensed on the last node [N/m]; none where the line has no
+    /// stiffness of its own (a heap of slack line).
+    pub fn fairlead_stiffness(&mut self, line: &dyn Line, state: &State) -> Option<Matrix3<f64>> {
+        let weights = Weights { u: 1.0, v: 0.0, a: 0.0 };
+        line.tangent(&motion(state), &weights, None, &mut self.matrix);
+        let full = self.matrix.clone();
+        self.factor(line, &motion(state), &weights, None).ok()?;
+        let (last, nodes) = (line.last(), line.mesh().nodes());
+        let mut stiffness = Matrix3::zeros();
+        for c in 0..3 {
+            let mut x = vec![SVector::<f64, COMPONENTS>::zeros(); nodes];
+            let mut force = x.clone();
+            x[last][c] = 1.0;
+            full.multiply(&x, &mut force);
+            let mut field = Field::new(nodes);
+            for (node, f) in force.iter().enumerate() {
+                field.set_position(node, &-f.fixed_rows::<3>(0));
+                field.set_slope(node, &-f.fixed_rows::<3>(3));
+            }
+            self.solve_linear(line, &mut field);
+            for (node, x) in x.iter_mut().enumerate() {
+                x.fixed_rows_mut::<3>(0).add_assign(field.position(node));
+                x.fixed_rows_mut::<3>(3).add_assign(field.slope(node));
+            }
+            full.multiply(&x, &mut force);
+            stiffness.set_column(c, &force[last].fixed_rows::<3>(0));
+        }
+        self.forget();
+        stiffness.iter().all(|k| k.is_finite()).then_some(stiffness)
     }
 
     /// Solves with the factor at hand: b becomes the solution; prescribed unknowns stay zero.

@@ -67,6 +67,34 @@ pub fn outputs(line: &dyn Line, state: &State, time: f64, work: f64) -> Outputs 
     }
 }
 
+/// Change of the outputs for a change of the state, by a central difference of the output functions with a step of ± `step` times
+/// the change. Time and work are zero.
+pub fn along(line: &dyn Line, state: &State, change: &State, step: f64) -> Outputs {
+    let moved = |factor: f64| {
+        let mut moved = state.clone();
+        moved.u.add(factor, &change.u);
+        moved.v.add(factor, &change.v);
+        moved.a.add(factor, &change.a);
+        outputs(line, &moved, 0.0, 0.0)
+    };
+    let (after, before) = (moved(step), moved(-step));
+    let per = 0.5 / step;
+    let turn = after.azimuth - before.azimuth;
+    Outputs {
+        time: 0.0,
+        fairlead: (after.fairlead - before.fairlead) * per,
+        force: (after.force - before.force) * per,
+        tension: (after.tension - before.tension) * per,
+        anchor_force: (after.anchor_force - before.anchor_force) * per,
+        anchor_tension: (after.anchor_tension - before.anchor_tension) * per,
+        tension_max: (after.tension_max - before.tension_max) * per,
+        declination: (after.declination - before.declination) * per,
+        azimuth: turn.sin().atan2(turn.cos()) * per,
+        grounded_length: (after.grounded_length - before.grounded_length) * per,
+        work: 0.0,
+    }
+}
+
 /// Nodes of a state, from the fairlead; the second node of a joint is left out.
 pub fn nodes(line: &dyn Line, state: &State) -> Vec<NodeOutput> {
     let mesh = line.mesh();

@@ -1,49 +1,23 @@
 //! The facade: one mooring line through statics and time. The command, the report and the FMU see nothing else of the solver.
 
-use crate::error::Error;
+use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
+use crate::rod::line::{Line, Supports};
+use crate::rod::mesh::Mesh;
+pub use crate::rod::physics::Decision;
+use crate::rod::physics::{self, Surroundings};
+use crate::rod::state::{Field, State};
 use crate::scene::types::Scene;
-use crate::solve::motion::Path;
+use crate::solve::controller::{self, Controller, Demands, Failure};
+use crate::solve::meshing;
+use crate::solve::motion::{Kinematics, Path};
+use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
+use crate::solve::outputs;
+pub use crate::solve::outputs::{NodeOutput, Outputs};
+use crate::solve::scheme::{Bench, Moment};
+use crate::solve::snapshot::Snapshot;
+use crate::solve::start::{self, Bounds};
+use crate::solve::statics;
 use nalgebra::Vector3;
-
-/// What a line tells about itself at one instant. Forces are those the line exerts on what holds it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outputs {
-    /// Time [s].
-    pub time: f64,
-    /// Position of the fairlead [m].
-    pub fairlead: Vector3<f64>,
-    /// Force on the vessel [N].
-    pub force: Vector3<f64>,
-    /// Effective tension at the fairlead, |force| [N].
-    pub tension: f64,
-    /// Force on the anchor [N].
-    pub anchor_force: Vector3<f64>,
-    /// Effective tension at the anchor [N].
-    pub anchor_tension: f64,
-    /// Largest effective tension along the line [N].
-    pub tension_max: f64,
-    /// Angle of the force from straight down [rad].
-    pub declination: f64,
-    /// Direction of the force in plan, from x to y [rad].
-    pub azimuth: f64,
-    /// Unstretched length in contact with the bed [m].
-    pub grounded_length: f64,
-    /// Work done on the vessel since the start [J].
-    pub work: f64,
-}
-
-/// A node of the line, counted from the fairlead.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NodeOutput {
-    /// Unstretched arc length from the fairlead [m].
-    pub s: f64,
-    /// Position [m].
-    pub position: Vector3<f64>,
-    /// Unit tangent from fairlead to anchor [-].
-    pub tangent: Vector3<f64>,
-    /// Effective tension, positive pulling [N].
-    pub tension: f64,
-}
 
 /// How statics went.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,95 +41,289 @@ pub struct Counters {
     pub newton_iterations: usize,
     /// Factorisations of the tangent.
     pub factorisations: usize,
-    /// Elements times evaluations.
+    /// Elements times Newton iterations.
     pub element_iterations: usize,
 }
 
-/// How the last `advance` went.
+/// The last `advance`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LastStep {
-    /// Accepted time steps.
+    /// Accepted time steps inside it.
     pub substeps: usize,
-    /// Newton iterations.
+    /// Newton iterations inside it.
     pub newton_iterations: usize,
-    /// Largest estimated relative error of a time step [-].
+    /// Largest estimated error of a step over the allowed one [-].
     pub error_estimate: f64,
 }
 
-/// The complete state of a simulation: restored, it goes on bit for bit as before.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Snapshot {}
-
-impl Snapshot {
-    /// Appends the state as bytes.
-    pub fn to_bytes(&self, _bytes: &mut Vec<u8>) {
-        todo!()
-    }
-
-    /// The state that exactly these bytes hold; `None`: they hold none.
-    pub fn from_bytes(_bytes: &[u8]) -> Option<Snapshot> {
-        todo!()
-    }
+/// One mooring line through statics and time.
+pub struct Simulation {
+    name: String,
+    line: Box<dyn Line>,
+    decisions: Vec<Decision>,
+    bounds: Bounds,
+    anchor: Vector3<f64>,
+    newton: Newton,
+    controller: Controller,
+    tolerance: f64,
+    demands: Demands,
+    moment: Moment,
+    work: f64,
+    fresh: bool,
+    last: LastStep,
 }
 
-/// One mooring line through statics and time.
-pub struct Simulation {}
+/// Largest local error of the positions per second, as a share of tolerance × (tension / stiffness of the fairlead). Calibrated on
+/// the built-in case, where it gives half the tolerance in the end tension.
+const ERROR_SHARE: f64 = 0.15;
+/// Newton increments count as converged at this share of the tolerance.
+const NEWTON_SHARE: f64 = 0.01;
+/// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
+const MESH_SHARE: f64 = 0.3;
 
 impl Simulation {
-    /// Line number `index` of a checked scene: meshes it and picks its physics.
-    pub fn new(_scene: &Scene, _index: usize) -> Result<Simulation, Error> {
-        todo!()
+    /// Line number `index` of a checked scene: meshes it and picks its physics. Where the scene leaves the mesh to the program, it
+    /// is refined until the static end tension meets the tolerance.
+    pub fn new(scene: &Scene, index: usize) -> Result<Simulation, Error> {
+        let Some(line) = scene.lines.get(index) else {
+            let (place, value) = (format!("lines[{index}]"), String::from("a line that is not there"));
+            return Err(Error::Value {
+                file: scene.title.clone(),
+                place,
+                value,
+                allowed: format!("there are {}", scene.lines.len()),
+            });
+        };
+        let mut finer = 1.0;
+        let mut simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, finer));
+        if !meshing::is_automatic(line) {
+            return Ok(simulation);
+        }
+        let tension =
+            |simulation: &mut Simulation| simulation.settle(line.fairlead.into(), 0.0).ok().map(|_| simulation.outputs().tension);
+        let allowed = MESH_SHARE * scene.solver.tolerance;
+        for _ in 0..3 {
+            let mut halved = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, 2.0 * finer));
+            match (tension(&mut simulation), tension(&mut halved)) {
+                (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * fine => {
+                    finer *= 1.5;
+                    simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, finer));
+                }
+                (None, Some(_)) => simulation = halved,
+                _ => break,
+            }
+        }
+        Ok(simulation)
+    }
+
+    /// Line number `index` of a checked scene on a given mesh.
+    fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Simulation {
+        let (decisions, nodes, length) = (physics::decisions(scene, &mesh), mesh.nodes(), mesh.length);
+        let (surroundings, supports) = (Surroundings::of(scene, &mesh), Supports::pinned(&mesh));
+        let line = physics::build(mesh, surroundings, supports);
+        let solver = &scene.solver;
+        let criteria = Criteria { tolerance: (NEWTON_SHARE * solver.tolerance).clamp(1e-11, 1e-4), length, iterations: 12 };
+        Simulation {
+            name: scene.lines[index].name.clone(),
+            decisions,
+            bounds: meshing::bounds(scene),
+            anchor: scene.lines[index].anchor.into(),
+            newton: Newton::new(line.as_ref()),
+            controller: Controller::new(solver.scheme, nodes),
+            tolerance: solver.tolerance,
+            demands: Demands { error_rate: 0.0, max_step: solver.max_step, fixed_step: solver.fixed_step, criteria },
+            moment: controller::at_rest(nodes, 0.0, solver.max_step),
+            line,
+            work: 0.0,
+            fresh: true,
+            last: LastStep::default(),
+        }
     }
 
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
     /// On `Err(Error::Statics)` the best state found stands, so that it can be looked at.
-    pub fn settle(&mut self, _fairlead: Vector3<f64>, _time: f64) -> Result<StaticsReport, Error> {
-        todo!()
+    pub fn settle(&mut self, fairlead: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
+        let nodes = self.line.mesh().nodes();
+        self.moment = controller::at_rest(nodes, time, self.demands.max_step);
+        start::guess(self.line.mesh(), &self.bounds, &self.anchor, &fairlead, &mut self.moment.state.u);
+        let balance = statics::settle(self.line.as_ref(), &mut self.newton, &mut self.moment.state);
+        self.demands.error_rate = ERROR_SHARE * self.tolerance * self.tension_length();
+        self.newton.forget();
+        self.newton.effort = Effort::default();
+        (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
+        if balance.converged() {
+            return Ok(StaticsReport { iterations: balance.iterations, residual: balance.residual, converged: true });
+        }
+        Err(Error::Statics(Box::new(Unbalanced {
+            line: self.name.clone(),
+            iterations: balance.iterations,
+            residual: balance.residual,
+            allowed: balance.allowed,
+            s: self.arc_length(balance.node),
+            zone: self.zone(balance.node),
+        })))
+    }
+
+    /// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
+    fn tension_length(&mut self) -> f64 {
+        let length = self.line.mesh().length;
+        let tension = self.line.end_force(&motion(&self.moment.state)).norm();
+        let stiffness = self.newton.fairlead_stiffness(self.line.as_ref(), &self.moment.state).map_or(0.0, |k| k.norm());
+        if stiffness > 0.0 { (tension / stiffness).clamp(1e-5 * length, 0.02 * length) } else { 0.02 * length }
     }
 
     /// Advances to a time with the fairlead on a path. On an error the state is the one before the call.
-    pub fn advance(&mut self, _until: f64, _path: &Path) -> Result<(), Error> {
-        todo!()
+    pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
+        let before = (self.moment.clone(), self.work, self.fresh);
+        self.check_path(until, path)?;
+        let effort = self.newton.effort;
+        let steps = self.controller.tally.steps;
+        self.controller.tally.error = 0.0;
+        let outcome = self.begin(path).and_then(|()| self.run(until, path));
+        match outcome {
+            Ok(()) => {
+                self.last = LastStep {
+                    substeps: self.controller.tally.steps - steps,
+                    newton_iterations: self.newton.effort.iterations - effort.iterations,
+                    error_estimate: self.controller.tally.error,
+                };
+                Ok(())
+            }
+            Err(failure) => {
+                let stuck = self.stuck(&failure, path, before.0.time);
+                (self.moment, self.work, self.fresh) = before;
+                self.newton.forget();
+                Err(Error::Step(Box::new(stuck)))
+            }
+        }
     }
 
-    /// Outputs now.
-    pub fn outputs(&self) -> Outputs {
-        todo!()
+    fn run(&mut self, until: f64, path: &Path) -> Result<(), Failure> {
+        let line = self.line.as_ref();
+        let mut force = line.end_force(&motion(&self.moment.state));
+        let mut place = self.moment.state.u.position(line.last());
+        let work = &mut self.work;
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria: self.demands.criteria };
+        self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment| {
+            let (force_now, place_now) = (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
+            *work += 0.5 * (force + force_now).dot(&(place_now - place));
+            (force, place) = (force_now, place_now);
+        })
     }
 
-    /// Nodes now, from the fairlead.
-    pub fn nodes(&self) -> Vec<NodeOutput> {
-        todo!()
+    /// Before the first step after statics: the fairlead takes up the velocity and acceleration of its path, the line those that fit.
+    fn begin(&mut self, path: &Path) -> Result<(), Failure> {
+        if !std::mem::take(&mut self.fresh) {
+            return Ok(());
+        }
+        let now = path.at(self.moment.time);
+        let mut bench = Bench { line: self.line.as_ref(), newton: &mut self.newton, path, criteria: self.demands.criteria };
+        bench.prescribe(&mut self.moment.state, &now);
+        if now.velocity.norm() + now.acceleration.norm() > 0.0 {
+            let time = self.moment.time;
+            bench.accelerate(&mut self.moment.state).map_err(|stall| Failure { time, step: 0.0, stall: Some(stall) })?;
+        }
+        Ok(())
     }
 
-    /// Number of elements.
-    pub fn elements(&self) -> usize {
-        todo!()
+    fn check_path(&self, until: f64, path: &Path) -> Result<(), Error> {
+        let (time, length) = (self.moment.time, self.line.mesh().length);
+        let fairlead = self.moment.state.u.position(self.line.last());
+        let (from, to) = (path.at(time), path.at(until));
+        let jump = (from.position - fairlead).norm();
+        let reach = (to.position - self.anchor).norm();
+        let cause = if !(is_finite(&from) && is_finite(&to) && until.is_finite()) {
+            Cause::BadMotion
+        } else if jump > 1e-6 * length {
+            Cause::Jump { distance: jump }
+        } else if reach > 2.0 * length {
+            Cause::OutOfReach { distance: reach, length }
+        } else {
+            return Ok(());
+        };
+        let at = |time| Stuck {
+            line: self.name.clone(),
+            time,
+            s: 0.0,
+            zone: Zone::Fairlead,
+            cause,
+            fairlead_speed: to.velocity.norm(),
+            last_good_time: self.moment.time,
+        };
+        Err(Error::Step(Box::new(at(until))))
     }
 
-    /// Work done so far.
-    pub fn counters(&self) -> Counters {
-        todo!()
+    fn stuck(&self, failure: &Failure, path: &Path, last_good_time: f64) -> Stuck {
+        let step = failure.step;
+        let node = failure.stall.map_or(self.line.last(), |stall| stall.node());
+        Stuck {
+            line: self.name.clone(),
+            time: failure.time,
+            s: self.arc_length(node),
+            zone: self.zone(node),
+            cause: match failure.stall {
+                None => Cause::TooInaccurate { step },
+                Some(Stall::NotFinite { .. }) => Cause::NotFinite { step },
+                Some(_) => Cause::NoSolution { step },
+            },
+            fairlead_speed: path.at(failure.time).velocity.norm(),
+            last_good_time,
+        }
     }
 
-    /// How the last `advance` went.
-    pub fn last_step(&self) -> LastStep {
-        todo!()
+    /// Arc length of a node from the fairlead [m].
+    fn arc_length(&self, node: usize) -> f64 {
+        self.line.mesh().length - self.line.mesh().node_arc_length(node)
     }
 
-    /// Time derivatives of the outputs now (of the time itself: 1).
+    /// Part of the line at a node.
+    fn zone(&self, node: usize) -> Zone {
+        let near =
+            |e: usize| self.line.touching_length(&self.moment.state.u, e) / self.line.mesh().elements[e].length.max(1e-300);
+        let last = self.line.last();
+        let (below, above) = (near(node.saturating_sub(1).min(last - 1)), near(node.min(last - 1)));
+        match node {
+            _ if node == last => Zone::Fairlead,
+            0 => Zone::Anchor,
+            _ if below > 0.999 && above > 0.999 => Zone::Grounded,
+            _ if below > 0.0 || above > 0.0 => Zone::Touchdown,
+            _ => Zone::Suspended,
+        }
+    }
+
+    /// The complete state. The factor of the tangent is not part of it: it is dropped here and in `restore`, so that what follows
+    /// is the same to the bit after both.
+    pub fn snapshot(&mut self) -> Snapshot {
+        self.newton.forget();
+        let (moment, error_rate) = (self.moment.clone(), self.demands.error_rate);
+        Snapshot { moment, work: self.work, fresh: self.fresh, error_rate, last: self.last }
+    }
+
+    /// Puts back a state of this line; false, and nothing changed, if it belongs to a line with another number of nodes.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
+        if snapshot.nodes() != self.line.mesh().nodes() {
+            return false;
+        }
+        self.newton.forget();
+        self.moment.clone_from(&snapshot.moment);
+        self.demands.error_rate = snapshot.error_rate;
+        (self.work, self.fresh, self.last) = (snapshot.work, snapshot.fresh, snapshot.last);
+        true
+    }
+
+    /// Rates of the outputs in time, from the motion of the line now and the change of its acceleration over the last step.
     pub fn output_rates(&self) -> Outputs {
-        todo!()
-    }
-
-    /// The state now.
-    pub fn snapshot(&self) -> Snapshot {
-        todo!()
-    }
-
-    /// Goes back to a state of this simulation, or of one made from the same scene.
-    pub fn restore(&mut self, _snapshot: &Snapshot) {
-        todo!()
+        let (state, moment) = (&self.moment.state, &self.moment);
+        let mut jerk = Field::new(state.a.nodes());
+        if moment.last_step > 0.0 {
+            jerk.set_sum(&state.a, -1.0, &moment.earlier);
+            jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
+        }
+        let rate = State { u: state.v.clone(), v: state.a.clone(), a: jerk };
+        let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0e-4);
+        let velocity = state.v.position(self.line.last());
+        (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));
+        rates
     }
 
     /// Derivatives of all outputs at a time, one for each variation of the path on the way there from a state. The simulation stays
@@ -169,4 +337,61 @@ impl Simulation {
     ) -> Result<Vec<Outputs>, Error> {
         todo!()
     }
+
+    /// Outputs now.
+    pub fn outputs(&self) -> Outputs {
+        outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.time, self.work)
+    }
+
+    /// Nodes now, from the fairlead.
+    pub fn nodes(&self) -> Vec<NodeOutput> {
+        outputs::nodes(self.line.as_ref(), &self.moment.state)
+    }
+
+    /// Number of elements.
+    pub fn elements(&self) -> usize {
+        self.line.mesh().element_count()
+    }
+
+    /// Runs of elements of nearly one length, from the fairlead: from and to which arc length [m], and how many.
+    pub fn mesh(&self) -> Vec<(f64, f64, usize)> {
+        let mesh = self.line.mesh();
+        let mut runs: Vec<(f64, f64, usize)> = Vec::new();
+        for element in mesh.elements.iter().rev().filter(|element| !element.is_joint()) {
+            let (from, to) = (mesh.length - element.start - element.length, mesh.length - element.start);
+            match runs.last_mut() {
+                Some(run) if (element.length * run.2 as f64 / (run.1 - run.0) - 1.0).abs() < 0.1 => {
+                    (run.1, run.2) = (to, run.2 + 1)
+                }
+                _ => runs.push((from, to, 1)),
+            }
+        }
+        runs
+    }
+
+    /// Which physics is in the step and why.
+    pub fn decisions(&self) -> &[Decision] {
+        &self.decisions
+    }
+
+    /// Work done so far.
+    pub fn counters(&self) -> Counters {
+        let (tally, effort) = (&self.controller.tally, &self.newton.effort);
+        Counters {
+            steps: tally.steps,
+            rejected_steps: tally.rejected,
+            newton_iterations: effort.iterations,
+            factorisations: effort.factorisations,
+            element_iterations: effort.iterations * self.elements(),
+        }
+    }
+
+    /// The last `advance`.
+    pub fn last_step(&self) -> LastStep {
+        self.last
+    }
+}
+
+fn is_finite(k: &Kinematics) -> bool {
+    [k.position, k.velocity, k.acceleration].iter().all(|v| v.iter().all(|x| x.is_finite()))
 }

@@ -58,7 +58,10 @@ pub fn settle(line: &dyn Line, newton: &mut Newton, state: &mut State) -> Balanc
         state.u.copy_from(&start);
     }
     state.u.copy_from(&best.1);
-    last.map_or(Balance { iterations, residual: f64::INFINITY, allowed: 0.0, node: 0 }, |balance| Balance { iterations, ..balance })
+    last.map_or(Balance { iterations, residual: f64::INFINITY, allowed: 0.0, node: 0 }, |balance| Balance {
+        iterations,
+        ..balance
+    })
 }
 
 /// One way to walk to equilibrium.
@@ -135,7 +138,8 @@ impl Walk {
             }
             // Fall with the residual; after a limited or worsening step rise again.
             calm = if scale > -1.0 { 0 } else { calm + 1 };
-            let factor = if calm == 0 { 2.0 } else { (balance.residual / before).clamp(0.1, 2.0).min(if calm > 3 { 0.5 } else { 2.0 }) };
+            let factor =
+                if calm == 0 { 2.0 } else { (balance.residual / before).clamp(0.1, 2.0).min(if calm > 3 { 0.5 } else { 2.0 }) };
             mu = if attempt.inertia > 0.0 { mu * factor } else { mu * 0.1 };
         }
         balance
