@@ -208,7 +208,7 @@ refused(line, "direction of nothing", direction(4711, "fairlead.position.x"), "4
 # --- Status
 number, real = c.c_int(), c.c_double()
 assert line.call("fmi2GetStatus", 0, c.byref(number)) == OK and number.value == OK
-assert line.call("fmi2GetRealStatus", 2, c.byref(real)) == OK and real.value == 0.2
+assert line.call("fmi2GetRealStatus", 2, c.byref(real)) == OK and abs(real.value - 0.2) < 1e-9
 assert line.call("fmi2GetBooleanStatus", 3, c.byref(number)) == OK and number.value == 0
 refused(line, "status of kind 9", line.call("fmi2GetStatus", 9, c.byref(number)), "9")
 refused(line, "status of kind -1", line.call("fmi2GetIntegerStatus", -1, c.byref(number)), "-1")
@@ -242,6 +242,7 @@ for position in range(0, len(data), max(1, len(data) // 200)):
     damaged = bytearray(data)
     damaged[position] ^= 1
     refused(line, "blob with one bit wrong", line.deserialize(bytes(damaged))[0], "refused")
+    tried.pop()
 refused(line, "blob NULL", line.call("fmi2DeSerializeFMUstate", None, c.c_size_t(8), c.byref(c.c_void_p())), "NULL")
 refused(line, "blob to NULL", line.call("fmi2DeSerializeFMUstate", data, c.c_size_t(len(data)), None), "NULL")
 
@@ -262,7 +263,8 @@ assert line.call("fmi2Terminate") == OK
 refused(line, "step after the end", line.do_step(0.3, 0.1), "after fmi2Terminate")
 refused(line, "set after the end", line.set_real({"fairlead.position.x": 0.0}), "after fmi2Terminate")
 assert line.get_real("tension")[0] == OK
-assert line.set_state(state) == OK and line.step(surge, 0.1) in (OK, ERROR)
+line.time = 0.2
+assert line.set_state(state) == OK and line.step(surge) == OK, "a state does not bring a terminated line back"
 line.free()
 shutil.rmtree(fmu.folder, ignore_errors=True)
 os.write(1, "".join(f"{what}: {('OK', 'Warning', 'Discard', 'Error')[status]}: {text}\n" for what, status, text in tried).encode())
