@@ -13,7 +13,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 /// What the scripts import.
-const PACKAGES: [&str; 2] = ["fmpy==0.3.32", "numpy<3"];
+const PACKAGES: [&str; 4] = ["fmpy==0.3.32", "numpy<3", "libcosimpy==0.0.6", "pythonfmu==0.7.0"];
 
 /// Runs a command; its output is the message where it fails.
 fn run(command: &mut Command, purpose: &str) -> Result<(), String> {
@@ -120,4 +120,14 @@ fn tension_follows_the_published_case_for_every_kind_of_master() {
 #[test]
 fn derivatives_agree_with_differences_taken_by_rollback() {
     script("derivatives.py");
+}
+
+#[test]
+fn the_fmpy_example_runs() {
+    script("example.py");
+}
+
+#[test]
+fn a_vessel_on_two_lines_is_stable_in_libcosim() {
+    script("osp.py");
 }

@@ -11,6 +11,7 @@ import pathlib
 import sys
 
 from libcosimpy.CosimExecution import CosimExecution
+from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 from libcosimpy.CosimObserver import CosimObserver
 
 SECONDS, REPORT = 120, 10
@@ -18,6 +19,7 @@ SECONDS, REPORT = 120, 10
 
 def run(folder: pathlib.Path) -> list[tuple[float, float, float, float]]:
     """Rows of time [s], surge [m], tension of the bow line and of the stern line [N]."""
+    log_output_level(CosimLogLevel.ERROR)
     execution = CosimExecution.from_osp_config_file(osp_path=str(folder))
     observer = CosimObserver.create_last_value()
     execution.add_observer(observer=observer)
