@@ -34,12 +34,22 @@ fn python() -> Result<PathBuf, String> {
         return Ok(python);
     }
     let names = ["python3", "python"];
-    let found = names.iter().find(|name| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success()));
+    let found =
+        names.iter().find(|name| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success()));
     let Some(system) = found else {
-        return Err("the tests of the FMU need Python 3.9 or newer on the PATH, as `python3` or `python`: install it and try again".into());
+        return Err(
+            "the tests of the FMU need Python 3.9 or newer on the PATH, as `python3` or `python`: install it and try again"
+                .into(),
+        );
     };
-    run(Command::new(system).args(["-m", "venv"]).arg(&environment), "making a virtual environment (Debian: install python3-venv)")?;
-    run(Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(PACKAGES), "installing the Python packages of the tests")?;
+    run(
+        Command::new(system).args(["-m", "venv"]).arg(&environment),
+        "making a virtual environment (Debian: install python3-venv)",
+    )?;
+    run(
+        Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(PACKAGES),
+        "installing the Python packages of the tests",
+    )?;
     std::fs::write(&finished, PACKAGES.join("\n")).map_err(|error| error.to_string())?;
     Ok(python)
 }
@@ -52,9 +62,12 @@ fn scene() -> Result<Scene, String> {
 /// Tension of the solver alone on the built-in motion, at the FMU's communication points, as CSV.
 fn standalone() -> Result<String, String> {
     let scene = scene()?;
-    let Motion::Sinusoidal { period, sine, cosine, ramp } = scene.motion else { return Err("the built-in motion is sinusoidal".into()) };
+    let Motion::Sinusoidal { period, sine, cosine, ramp } = scene.motion else {
+        return Err("the built-in motion is sinusoidal".into());
+    };
     let origin = scene.lines[0].fairlead.into();
-    let path = Path::Sinusoidal { origin, omega: TAU / period, sine: sine.into(), cosine: cosine.into(), ramp: ramp.unwrap_or(0.0) };
+    let path =
+        Path::Sinusoidal { origin, omega: TAU / period, sine: sine.into(), cosine: cosine.into(), ramp: ramp.unwrap_or(0.0) };
     let mut simulation = Simulation::new(&scene, 0).map_err(|error| error.to_string())?;
     simulation.settle(origin, 0.0).map_err(|error| error.to_string())?;
     let mut text = String::from("time,tension\n");

@@ -65,14 +65,16 @@ pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Res
             file: name.to_owned(),
             place: "lines".to_owned(),
             value: format!("a scene of {} lines", scene.lines.len()),
-            allowed: "an FMU holds one line; pack a scene with one line and load the FMU once per line, each with its own parameters"
-                .to_owned(),
+            allowed:
+                "an FMU holds one line; pack a scene with one line and load the FMU once per line, each with its own parameters"
+                    .to_owned(),
         });
     }
     if libraries.files.is_empty() {
         let names = PLATFORMS.iter().map(|(_, _, names)| names[0]).collect::<Vec<_>>().join(", ");
         let program = std::env::current_exe().unwrap_or_default();
-        let reason = format!("the FMU's library ({names}) does not lie beside the program; `cargo build --release` puts it there");
+        let reason =
+            format!("the FMU's library ({names}) does not lie beside the program; `cargo build --release` puts it there");
         return Err(Error::File { path: program.display().to_string(), reason });
     }
     let scene = self_contained(scene);
@@ -264,7 +266,9 @@ mod tests {
         let section = scene.lines[0].sections[0].clone();
         scene.lines[0].sections.push(section);
         let text = render(&scene, "two", "2026-01-01T00:00:00Z");
-        for name in ["environment.depth", "line_types.chain.ea", "lines[0].sections[1].length", "lines[0].anchor[2]", "solver.scheme"] {
+        for name in
+            ["environment.depth", "line_types.chain.ea", "lines[0].sections[1].length", "lines[0].anchor[2]", "solver.scheme"]
+        {
             assert!(text.contains(&format!("name=\"{name}\"")), "{name} is missing");
         }
         assert!(!text.contains("line.length\"") && !text.contains("lines[0].fairlead"));

@@ -25,7 +25,11 @@ fn run(path: &str) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
     let mut rows = Vec::new();
     for index in 0..1200 {
         let time = f64::from(index) * STEP;
-        let (ease, slope) = if time < 24.0 { (0.5 - 0.5 * (TAU * time / 48.0).cos(), TAU / 96.0 * (TAU * time / 48.0).sin()) } else { (1.0, 0.0) };
+        let (ease, slope) = if time < 24.0 {
+            (0.5 - 0.5 * (TAU * time / 48.0).cos(), TAU / 96.0 * (TAU * time / 48.0).sin())
+        } else {
+            (1.0, 0.0)
+        };
         let (sin, cos) = (TAU * time / 12.0).sin_cos();
         line.set_real(&inputs, &[3.0 * ease * sin, 3.0 * (ease * TAU / 12.0 * cos + slope * sin)])?;
         line.do_step(time, STEP, true)?;
