@@ -23,7 +23,10 @@ def run(path: str) -> tuple[list[float], list[float]]:
     reference = {variable.name: variable.valueReference for variable in description.modelVariables}
     folder = extract(path)
     line = FMU2Slave(
-        guid=description.guid, unzipDirectory=folder, modelIdentifier=description.coSimulation.modelIdentifier, instanceName="bow line"
+        guid=description.guid,
+        unzipDirectory=folder,
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="bow line",
     )
     line.instantiate()
     line.setupExperiment(startTime=0.0)

@@ -73,7 +73,12 @@ without_logger = Callbacks(c.cast(None, type(Line(fmu).logger)), None, None, Non
 silent = Line(fmu, callbacks=c.byref(without_logger))
 assert silent.component and silent.do_step(0.0, 0.1) == ERROR
 silent.free()
-for location in (fmu.location, fmu.location.replace("file:///", "file:/"), "file://" + str(fmu.folder / "resources"), str(fmu.folder / "resources")):
+for location in (
+    fmu.location,
+    fmu.location.replace("file:///", "file:/"),
+    "file://" + str(fmu.folder / "resources"),
+    str(fmu.folder / "resources"),
+):
     line = Line(fmu, location=location.encode())
     assert line.component, f"{location}: {line.log}"
     line.free()
@@ -94,7 +99,12 @@ refused(line, "leave initialization before entering", line.call("fmi2ExitInitial
 refused(line, "terminate before start", line.call("fmi2Terminate"), "not allowed")
 refused(line, "output before initialization", line.get_real("tension")[0], "tension", "no value")
 refused(line, "local before initialization", line.get_integer("solver.substeps")[0], "solver.substeps")
-refused(line, "output derivative before initialization", line.call("fmi2GetRealOutputDerivatives", None, c.c_size_t(0), None, None), "not allowed")
+refused(
+    line,
+    "output derivative before initialization",
+    line.call("fmi2GetRealOutputDerivatives", None, c.c_size_t(0), None, None),
+    "not allowed",
+)
 for start in (NAN, INFINITE):
     refused(line, f"start time {start}", line.setup(start), "startTime")
 refused(line, "stop before start", line.setup(10.0, 5.0), "stopTime", "10.0")
@@ -109,23 +119,49 @@ refused(line, "Real as Integer", line.set_integer({"line.length": 1}), "Integer"
 refused(line, "output set", line.set_real({"tension": 1.0}), "tension", "an output")
 refused(line, "local set", line.set_real({"solver.error_estimate": 1.0}), "solver.error_estimate", "local")
 for name, value in (
-    ("line.length", 0.0), ("line.length", -1.0), ("line.length", NAN), ("line.ea", 0.0), ("line.ea", INFINITE), ("line.mass", -1.0),
-    ("line.diameter", 0.0), ("line.damping", -1e-3), ("water.depth", 0.0), ("seabed.stiffness", -1.0), ("seabed.friction", -0.1),
-    ("solver.tolerance", 1.0), ("solver.max_step", 0.0), ("fairlead.position.z", NAN), ("fairlead.velocity.y", INFINITE),
-    ("fairlead.position.x", 1e300), ("line.submerged_weight", NAN), ("anchor.position.y", -INFINITE),
+    ("line.length", 0.0),
+    ("line.length", -1.0),
+    ("line.length", NAN),
+    ("line.ea", 0.0),
+    ("line.ea", INFINITE),
+    ("line.mass", -1.0),
+    ("line.diameter", 0.0),
+    ("line.damping", -1e-3),
+    ("water.depth", 0.0),
+    ("seabed.stiffness", -1.0),
+    ("seabed.friction", -0.1),
+    ("solver.tolerance", 1.0),
+    ("solver.max_step", 0.0),
+    ("fairlead.position.z", NAN),
+    ("fairlead.velocity.y", INFINITE),
+    ("fairlead.position.x", 1e300),
+    ("line.submerged_weight", NAN),
+    ("anchor.position.y", -INFINITE),
 ):
     refused(line, f"{name} = {value}", line.set_real({name: value}), name, "must be a number from")
 for name, value in (("line.elements", -1), ("solver.scheme", 0), ("solver.scheme", 5), ("input.interpolation", 9)):
     refused(line, f"{name} = {value}", line.set_integer({name: value}), name)
 before = line.get_real("fairlead.position.x", "fairlead.position.y")
-refused(line, "one of two values wrong", line.set_real({"fairlead.position.x": 9.0, "fairlead.position.y": NAN}), "fairlead.position.y")
+refused(
+    line,
+    "one of two values wrong",
+    line.set_real({"fairlead.position.x": 9.0, "fairlead.position.y": NAN}),
+    "fairlead.position.y",
+)
 assert line.get_real("fairlead.position.x", "fairlead.position.y") == before, "half of the values was set"
-for what, function in (("Boolean", "fmi2GetBoolean"), ("String", "fmi2GetString"), ("Boolean", "fmi2SetBoolean"), ("String", "fmi2SetString")):
+for what, function in (
+    ("Boolean", "fmi2GetBoolean"),
+    ("String", "fmi2GetString"),
+    ("Boolean", "fmi2SetBoolean"),
+    ("String", "fmi2SetString"),
+):
     refused(line, f"{function} of a Real", line.call(function, line.references([0]), c.c_size_t(1), None), what)
     assert line.call(function, None, c.c_size_t(0), None) == OK
 for function in ("fmi2GetReal", "fmi2SetReal", "fmi2GetInteger", "fmi2SetInteger"):
     refused(line, f"{function} without references", line.call(function, None, c.c_size_t(1), REAL()), "vr is NULL")
-    refused(line, f"{function} without values", line.call(function, line.references([POSITION]), c.c_size_t(1), None), "value is NULL")
+    refused(
+        line, f"{function} without values", line.call(function, line.references([POSITION]), c.c_size_t(1), None), "value is NULL"
+    )
     assert line.call(function, None, c.c_size_t(0), None) == OK
 
 # --- Logging
@@ -180,7 +216,12 @@ refused(line, "input derivative of order 0", set_derivative("fairlead.position.x
 refused(line, "input derivative of order 3", set_derivative("fairlead.position.x", 3), "orders 1 and 2")
 refused(line, "input derivative NaN", set_derivative("fairlead.velocity.z", 1, NAN), "fairlead.velocity.z")
 refused(line, "input derivative of nothing", set_derivative(4711, 1), "4711")
-refused(line, "input derivative NULL", line.call("fmi2SetRealInputDerivatives", line.references([0]), c.c_size_t(1), None, one), "order is NULL")
+refused(
+    line,
+    "input derivative NULL",
+    line.call("fmi2SetRealInputDerivatives", line.references([0]), c.c_size_t(1), None, one),
+    "order is NULL",
+)
 
 
 def get_derivative(name, n):
@@ -195,7 +236,13 @@ refused(line, "output derivative of an input", get_derivative("fairlead.position
 def direction(unknown, known, seed=1.0, n=1):
     result = REAL()
     return line.call(
-        "fmi2GetDirectionalDerivative", line.references([unknown]), c.c_size_t(n), line.references([known]), c.c_size_t(n), REAL(seed), result
+        "fmi2GetDirectionalDerivative",
+        line.references([unknown]),
+        c.c_size_t(n),
+        line.references([known]),
+        c.c_size_t(n),
+        REAL(seed),
+        result,
     )
 
 
@@ -220,11 +267,22 @@ refused(line, "integer status", line.call("fmi2GetIntegerStatus", 2, None), "not
 status, state = line.get_state()
 assert status == OK and state.value
 data = line.serialize(state)
-refused(line, "buffer too small", line.call("fmi2SerializeFMUstate", state, (c.c_char * 10)(), c.c_size_t(10)), "10 bytes", str(len(data)))
+refused(
+    line,
+    "buffer too small",
+    line.call("fmi2SerializeFMUstate", state, (c.c_char * 10)(), c.c_size_t(10)),
+    "10 bytes",
+    str(len(data)),
+)
 refused(line, "size NULL", line.call("fmi2SerializedFMUstateSize", state, None), "size is NULL")
 refused(line, "set no state", line.set_state(None), "NULL")
 refused(line, "set a foreign state", line.set_state(c.c_void_p(0x1234)), "does not belong")
-refused(line, "serialize a foreign state", line.call("fmi2SerializedFMUstateSize", c.c_void_p(0x1234), c.byref(c.c_size_t())), "does not belong")
+refused(
+    line,
+    "serialize a foreign state",
+    line.call("fmi2SerializedFMUstateSize", c.c_void_p(0x1234), c.byref(c.c_size_t())),
+    "does not belong",
+)
 refused(line, "get into NULL", line.call("fmi2GetFMUstate", None), "FMUstate is NULL")
 other = Line(fmu).start(surge)
 refused(other, "state of another instance", other.set_state(state), "does not belong")
@@ -267,4 +325,6 @@ line.time = 0.2
 assert line.set_state(state) == OK and line.step(surge) == OK, "a state does not bring a terminated line back"
 line.free()
 shutil.rmtree(fmu.folder, ignore_errors=True)
-os.write(1, "".join(f"{what}: {('OK', 'Warning', 'Discard', 'Error')[status]}: {text}\n" for what, status, text in tried).encode())
+os.write(
+    1, "".join(f"{what}: {('OK', 'Warning', 'Discard', 'Error')[status]}: {text}\n" for what, status, text in tried).encode()
+)

@@ -14,7 +14,12 @@ def directional(line: Line, name: str) -> list[float]:
     result = (c.c_double * len(fmu.outputs))()
     status = line.call(
         "fmi2GetDirectionalDerivative",
-        line.references(fmu.outputs), c.c_size_t(len(fmu.outputs)), line.references([name]), c.c_size_t(1), (c.c_double * 1)(1.0), result,
+        line.references(fmu.outputs),
+        c.c_size_t(len(fmu.outputs)),
+        line.references([name]),
+        c.c_size_t(1),
+        (c.c_double * 1)(1.0),
+        result,
     )
     assert status == OK, line.log
     return list(result)
@@ -46,14 +51,18 @@ for until in (0.0, 5.0, 12.0):
             if output == "grounded_length" or (output == "azimuth" and abs(a) > 1e6):
                 continue
             scale = {"force": 1e3, "tension": 1e3, "anchor": 1e3, "tension_max": 1e3, "work": 1e3}.get(output.split(".")[0], 1e-3)
-            assert abs(a - b) < 0.02 * abs(b) + scale, f"t = {line.time}: d {output} / d {name}: {a} by derivative, {b} by rollback"
+            assert abs(a - b) < 0.02 * abs(b) + scale, (
+                f"t = {line.time}: d {output} / d {name}: {a} by derivative, {b} by rollback"
+            )
 
 line = Line(fmu).start(surge)
 for _ in range(60):
     assert line.step(surge) == OK
 names = ["force.x", "tension", "work"]
 rates = (c.c_double * 3)()
-assert line.call("fmi2GetRealOutputDerivatives", line.references(names), c.c_size_t(3), (c.c_int * 3)(1, 1, 1), rates) == OK, line.log
+assert line.call("fmi2GetRealOutputDerivatives", line.references(names), c.c_size_t(3), (c.c_int * 3)(1, 1, 1), rates) == OK, (
+    line.log
+)
 before = line.get_real(*names)[1]
 assert line.step(surge, 0.01) == OK
 after = line.get_real(*names)[1]

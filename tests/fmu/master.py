@@ -7,8 +7,8 @@ import math
 import pathlib
 import sys
 import tempfile
-import xml.etree.ElementTree as ElementTree
 import zipfile
+from xml.etree import ElementTree
 
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)
 STEP = 0.1
@@ -89,7 +89,9 @@ class Line:
 
     def set_integer(self, values: dict) -> int:
         names = list(values)
-        return self.call("fmi2SetInteger", self.references(names), c.c_size_t(len(names)), (c.c_int * len(names))(*values.values()))
+        return self.call(
+            "fmi2SetInteger", self.references(names), c.c_size_t(len(names)), (c.c_int * len(names))(*values.values())
+        )
 
     def get_real(self, *names) -> tuple[int, list[float]]:
         values = (c.c_double * len(names))()
@@ -116,7 +118,7 @@ class Line:
             c.c_double(stop or 0.0),
         )
 
-    def start(self, motion=None, start: float = 0.0, stop: float | None = None) -> "Line":
+    def start(self, motion=None, start: float = 0.0, stop: float | None = None) -> Line:
         """Through initialization, with the fairlead where the motion begins."""
         assert self.setup(start, stop) == OK, self.log
         assert self.call("fmi2EnterInitializationMode") == OK

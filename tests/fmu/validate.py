@@ -14,7 +14,13 @@ assert not problems, problems
 with zipfile.ZipFile(path) as archive:
     names = set(archive.namelist())
     assert archive.testzip() is None
-for name in ("modelDescription.xml", "model.png", "resources/scene.json", "documentation/index.html", "documentation/licenses/license.txt"):
+for name in (
+    "modelDescription.xml",
+    "model.png",
+    "resources/scene.json",
+    "documentation/index.html",
+    "documentation/licenses/license.txt",
+):
     assert name in names, f"{name} is missing in {names}"
 
 description = read_model_description(path)
@@ -41,7 +47,12 @@ motion = np.array(
 )
 motion["fairlead.velocity.x"] = 0.1
 result = simulate_fmu(
-    path, stop_time=10.0, output_interval=0.1, input=motion, start_values={"line.length": 1210.0}, output=["tension", "force.x", "work"]
+    path,
+    stop_time=10.0,
+    output_interval=0.1,
+    input=motion,
+    start_values={"line.length": 1210.0},
+    output=["tension", "force.x", "work"],
 )
 assert len(result) == 101 and all(np.isfinite(result[name]).all() for name in result.dtype.names)
 print(f"tension {result['tension'][0]:.0f} to {result['tension'][-1]:.0f} N")
