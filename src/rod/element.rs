@@ -49,12 +49,16 @@ pub struct Table {
     ea: Vec<f64>,
     damping: Vec<f64>,
     floor: Vec<f64>,
+    friction: Vec<f64>,
     ei: Vec<f64>,
     drag_normal: Vec<f64>,
     drag_tangential: Vec<f64>,
     added_normal: Vec<f64>,
     added_tangential: Vec<f64>,
 }
+
+/// Bound of the friction of a slack element, as a share of its weight in air.
+const SLACK_FRICTION: f64 = 0.05;
 
 impl Table {
     /// The properties of a mesh.
@@ -69,6 +73,7 @@ impl Table {
             ea: column(&|p| p.ea),
             damping: column(&|p| p.damping),
             floor: column(&|p| p.tension_floor()),
+            friction: mesh.elements.iter().map(|e| SLACK_FRICTION * mesh.sections[e.section].slack_weight() * e.length).collect(),
             ei: column(&|p| p.ei),
             drag_normal: column(&|p| p.drag_normal),
             drag_tangential: column(&|p| p.drag_tangential),
@@ -100,7 +105,8 @@ impl Table {
     /// Axial properties of elements from `e` on.
     #[inline(always)]
     pub fn axial<F: Real>(&self, e: usize) -> Axial<F> {
-        Axial { ea: F::load(&self.ea[e..]), damping: F::load(&self.damping[e..]), floor: F::load(&self.floor[e..]) }
+        let load = |column: &[f64]| F::load(&column[e..]);
+        Axial { ea: load(&self.ea), damping: load(&self.damping), floor: load(&self.floor), friction: load(&self.friction) }
     }
 
     /// Coefficients of the water's force on elements from `e` on.
