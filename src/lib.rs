@@ -76,6 +76,19 @@ pub mod solve {
     pub mod statics;
 }
 
+/// The FMU: FMI 2.0 co-simulation around the facade of `solve`.
+pub mod fmi {
+    #[allow(unsafe_code)]
+    pub mod fmi2;
+    pub mod input_path;
+    pub mod instance;
+    pub mod pack;
+    pub mod refusal;
+    pub mod resource;
+    pub mod snapshot;
+    pub mod variables;
+}
+
 /// What a run leaves behind: tables and a page to look at.
 pub mod report {
     pub mod page;

@@ -344,6 +344,18 @@ impl Simulation {
         rates
     }
 
+    /// Derivatives of all outputs at a time, one for each variation of the path on the way there from a state. The simulation stays
+    /// as it is.
+    pub fn differentiate(
+        &mut self,
+        _from: &Snapshot,
+        _until: f64,
+        _path: &Path,
+        _directions: &[Path],
+    ) -> Result<Vec<Outputs>, Error> {
+        todo!()
+    }
+
     /// Outputs now.
     pub fn outputs(&self) -> Outputs {
         outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.time, self.work)
