@@ -74,6 +74,7 @@ pub mod solve {
     pub mod snapshot;
     pub mod start;
     pub mod statics;
+    pub mod tangent;
 }
 
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.

@@ -56,7 +56,7 @@ impl Scheme for GeneralizedAlpha {
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };
-        bench.newton.solve(bench.line, &weights, &mut self.between, &bench.criteria)?;
+        bench.solve(&weights, &mut self.between)?;
 
         next.a.set_sum(&self.between.a, -ALPHA_M, &start.a);
         next.a.data_mut().iter_mut().for_each(|x| *x /= 1.0 - ALPHA_M);
