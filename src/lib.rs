@@ -70,6 +70,7 @@ pub mod solve {
     pub mod newton;
     pub mod outputs;
     pub mod scheme;
+    pub mod search;
     pub mod simulation;
     pub mod snapshot;
     pub mod start;

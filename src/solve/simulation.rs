@@ -2,7 +2,7 @@
 
 use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
 use crate::rod::line::{Line, Supports};
-use crate::rod::mesh::Mesh;
+use crate::rod::mesh::{Element, Mesh};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
@@ -81,6 +81,8 @@ pub struct Simulation {
 const ERROR_SHARE: f64 = 6.0e-3;
 /// The finest step for the sake of the error, as a share of the longest.
 const FINEST_SHARE: f64 = 1.0e-3;
+/// Nor is a step made finer for that sake than this share of the time that an axial wave needs to cross an element.
+const CROSSING_SHARE: f64 = 0.1;
 /// Newton increments count as converged at this share of the tolerance.
 const NEWTON_SHARE: f64 = 0.01;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
@@ -124,6 +126,8 @@ impl Simulation {
     /// Line number `index` of a checked scene on a given mesh.
     fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Simulation {
         let (decisions, nodes, length) = (physics::decisions(scene, &mesh), mesh.nodes(), mesh.length);
+        let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
+        let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
         let (surroundings, supports) = (Surroundings::of(scene, &mesh), Supports::pinned(&mesh));
         let line = physics::build(mesh, surroundings.clone(), supports);
         let solver = &scene.solver;
@@ -139,7 +143,7 @@ impl Simulation {
             tolerance: solver.tolerance,
             demands: Demands {
                 error: 0.0,
-                finest_step: FINEST_SHARE * solver.max_step,
+                finest_step: (FINEST_SHARE * solver.max_step).max(CROSSING_SHARE * crossing).min(solver.max_step),
                 max_step: solver.max_step,
                 fixed_step: solver.fixed_step,
                 criteria,
