@@ -21,7 +21,7 @@ const UNTIL: f64 = 4.8;
 /// Fairlead at rest [m].
 const FAIRLEAD: [f64; 3] = [80.0, 0.0, 60.0];
 
-/// A line of 120 m between points 100 m apart, in water.
+/// A line of 120 m between points 100 m apart, in still water.
 fn hanging(elements: usize) -> Rig {
     let properties = Properties {
         damping: 0.05,
@@ -71,25 +71,17 @@ const TIME_ORDERS: [(Scheme, f64, f64, f64, f64); 3] = [
     (Scheme::Esdirk3, 0.2, 2.5, 0.0, 1.0),
 ];
 
-/// Source: the theory of each scheme. The reference is another scheme at a step 8 times smaller than the smallest.
+/// Source: the theory of each scheme. Mean order of the places over four halvings of the step, against another scheme at a step 16 times
+/// smaller than the smallest. Measured 2.00 (adams-moulton and generalized-alpha) and 2.64 (esdirk3: 3.0, 3.0, 1.5, 3.0, reduced by the stiff
+/// axial waves, as for every method of low stage order).
 #[test]
 fn every_scheme_has_its_order_in_time() {
     for (scheme, longest, wanted, below, above) in TIME_ORDERS {
         let other = if scheme == Scheme::Esdirk3 { Scheme::AdamsMoulton } else { Scheme::Esdirk3 };
-        let (exact, exact_force) = run(other, 8, longest / 64.0);
-        let errors: Vec<(f64, f64)> = (0..4)
-            .map(|k| {
-                let (state, force) = run(scheme, 8, longest / f64::from(1 << k));
-                (distance(&state.u, &exact.u), (force - exact_force).norm())
-            })
-            .collect();
-        println!("{scheme:?}: {errors:.2e?}");
-        for pair in errors.windows(2) {
-            let (place, force) = ((pair[0].0 / pair[1].0).log2(), (pair[0].1 / pair[1].1).log2());
-            println!("{scheme:?}: order {place:.3} in place, {force:.3} in force");
-        }
-        let (before, last) = (errors[1], errors[2]);
-        let order = (before.0 / last.0).log2();
+        let exact = run(other, 8, longest / 256.0).0;
+        let errors: Vec<f64> = (0..5).map(|k| distance(&run(scheme, 8, longest / f64::from(1 << k)).0.u, &exact.u)).collect();
+        let order = (errors[0] / errors[4]).log2() / 4.0;
+        println!("{scheme:?}: order {order:.3}, errors {errors:?}");
         assert!(order > wanted - below && order < wanted + above, "{scheme:?}: order {order}, errors {errors:?}");
     }
 }
@@ -97,13 +89,13 @@ fn every_scheme_has_its_order_in_time() {
 /// Numbers of elements, and the least order wanted of the fairlead force in the element length.
 const SPACE_ORDER: (&[usize], f64) = (&[4, 8, 16], 3.5);
 
-/// Source: the theory of cubic Hermite elements (order 4 of the place); the reference has 64 elements.
+/// Source: the theory of cubic Hermite elements (order 4 of the place); the reference has 64 elements. Measured 4.2 and
+/// 5.8 in the fairlead force.
 #[test]
 fn moving_line_converges_in_space() {
     let (elements, wanted) = SPACE_ORDER;
     let exact = run(Scheme::Esdirk3, 64, 0.02).1;
     let errors: Vec<f64> = elements.iter().map(|n| (run(Scheme::Esdirk3, *n, 0.02).1 - exact).norm() / exact.norm()).collect();
-    println!("{errors:.2e?}");
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         println!("order {order:.2}");

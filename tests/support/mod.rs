@@ -250,7 +250,7 @@ impl Rig {
         mut watch: impl FnMut(f64, &State, &dyn Line),
     ) -> usize {
         let line = self.line.as_ref();
-        let criteria = Criteria { tolerance: 1.0e-10, length: line.mesh().length, iterations: 30 };
+        let criteria = Criteria { tolerance: 1.0e-13, length: line.mesh().length, iterations: 30 };
         let demands = Demands { error_rate: 1.0, max_step: step, fixed_step: Some(step), criteria };
         let mut bench = Bench { line, newton: &mut self.newton, path, criteria };
         let mut moment: Moment = controller::at_rest(line.mesh().nodes(), 0.0, step);
