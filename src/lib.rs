@@ -6,7 +6,18 @@
 #![warn(missing_docs)]
 
 /// Command line: one function per command. Uses everything, used by nothing.
-pub mod cli;
+pub mod cli {
+    pub mod arguments;
+    pub mod check;
+    pub mod console;
+    pub mod convert;
+    pub mod interrupt;
+    pub mod pack;
+    pub mod progress;
+    pub mod run;
+    pub mod schema;
+    pub mod statics;
+}
 /// Every failure as data, and the only file that words it.
 pub mod error;
 
@@ -65,9 +76,27 @@ pub mod solve {
     pub mod statics;
 }
 
+/// The FMU: FMI 2.0 co-simulation around the facade of `solve`.
+pub mod fmi {
+    #[allow(unsafe_code)]
+    pub mod fmi2;
+    pub mod input_path;
+    pub mod instance;
+    pub mod pack;
+    pub mod refusal;
+    pub mod resource;
+    pub mod snapshot;
+    pub mod variables;
+}
+
 /// What a run leaves behind: tables and a page to look at.
 pub mod report {
     pub mod page;
+    pub mod page_data;
     pub mod record;
+    #[cfg(test)]
+    pub mod sample;
+    pub mod schedule;
     pub mod tables;
+    pub mod units;
 }

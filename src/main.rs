@@ -1,3 +1,7 @@
 //! The command `moorline`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    moorline::cli::arguments::main(std::env::args_os())
+}

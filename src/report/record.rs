@@ -1,1 +1,347 @@
-//! To be written.
+//! What a run remembers: rows at the output times, snapshots of the nodes, counters, warnings. Plain data, no files.
+
+use crate::error::Error;
+use crate::report::units::{ForceUnit, sim_time};
+use crate::scene::types::{LineType, Scene};
+use crate::solve::simulation::{Counters, NodeOutput, Outputs, StaticsReport};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A run as far as it came.
+#[derive(Debug, Clone)]
+pub struct Record {
+    /// The scene that was run.
+    pub scene: Scene,
+    /// Name of its file.
+    pub file: String,
+    /// The lines, in the order of the scene.
+    pub lines: Vec<LineRecord>,
+    /// Times of the rows [s].
+    pub times: Vec<f64>,
+    /// Times of the snapshots [s].
+    pub snapshot_times: Vec<f64>,
+    /// Interval of the snapshots [s]; the last state of a run is always one more.
+    pub snapshot_step: f64,
+    /// Wall time of meshing and static equilibrium, all lines [s].
+    pub statics_seconds: f64,
+    /// Wall time inside the time loop, all lines, no output [s].
+    pub solver_seconds: f64,
+    /// Warnings of the scene.
+    pub scene_warnings: Vec<String>,
+    /// Why the run ended early; `None` after a whole run.
+    pub ended_by: Option<Error>,
+}
+
+/// One line of a run.
+#[derive(Debug, Clone)]
+pub struct LineRecord {
+    /// Its name.
+    pub name: String,
+    /// Unstretched length [m].
+    pub length: f64,
+    /// Number of elements.
+    pub elements: usize,
+    /// How statics went; `None` where no equilibrium was found.
+    pub statics: Option<StaticsReport>,
+    /// Nodes in static equilibrium, or in the best state found.
+    pub equilibrium: Vec<NodeOutput>,
+    /// Outputs at the times of the rows.
+    pub rows: Vec<Outputs>,
+    /// Nodes at the times of the snapshots.
+    pub snapshots: Vec<Vec<NodeOutput>>,
+    /// Work done by the solver.
+    pub counters: Counters,
+    /// Parts of the line with a breaking load, and what they had to bear.
+    parts: Vec<Part>,
+}
+
+/// A section that has a breaking load.
+#[derive(Debug, Clone)]
+struct Part {
+    section: usize,
+    line_type: String,
+    from: f64,
+    to: f64,
+    breaking_load: f64,
+    exceeded: Option<Overload>,
+}
+
+/// The largest tension of a section beyond its breaking load.
+#[derive(Debug, Clone, Copy)]
+struct Overload {
+    tension: f64,
+    s: f64,
+    time: f64,
+    first_time: f64,
+}
+
+/// What the rows of one column amount to: extremes are those of the rows, mean and standard deviation give each row the same weight
+/// (and divide by the number of rows), so that anyone can repeat them from `timeseries.csv`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Value of the first row: static equilibrium.
+    pub initial: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Its time [s], the first one where several rows share it.
+    pub max_time: f64,
+    /// Smallest value.
+    pub min: f64,
+    /// Its time [s].
+    pub min_time: f64,
+    /// Mean of the rows.
+    pub mean: f64,
+    /// Standard deviation of the rows.
+    pub std: f64,
+}
+
+impl Statistics {
+    /// Statistics of (time, value) rows; `None` without rows.
+    pub fn of(rows: impl Iterator<Item = (f64, f64)> + Clone) -> Option<Statistics> {
+        let (first_time, initial) = rows.clone().next()?;
+        let number = rows.clone().count() as f64;
+        let mean = rows.clone().map(|(_, value)| value).sum::<f64>() / number;
+        let variance = rows.clone().map(|(_, value)| (value - mean).powi(2)).sum::<f64>() / number;
+        let mut statistics = Statistics {
+            initial,
+            max: initial,
+            max_time: first_time,
+            min: initial,
+            min_time: first_time,
+            mean,
+            std: variance.sqrt(),
+        };
+        for (time, value) in rows {
+            if value > statistics.max {
+                (statistics.max, statistics.max_time) = (value, time);
+            }
+            if value < statistics.min {
+                (statistics.min, statistics.min_time) = (value, time);
+            }
+        }
+        Some(statistics)
+    }
+}
+
+impl Record {
+    /// An empty record of a scene read from `file`, with the warnings of reading it.
+    pub fn new(scene: &Scene, file: &str, scene_warnings: Vec<String>, snapshot_step: f64) -> Record {
+        Record {
+            scene: scene.clone(),
+            file: file.to_string(),
+            lines: (0..scene.lines.len()).map(|index| LineRecord::new(scene, index)).collect(),
+            times: Vec::new(),
+            snapshot_times: Vec::new(),
+            snapshot_step,
+            statics_seconds: 0.0,
+            solver_seconds: 0.0,
+            scene_warnings,
+            ended_by: None,
+        }
+    }
+
+    /// Adds a row: time [s], and each line's outputs and nodes then.
+    pub fn add_row(&mut self, time: f64, outputs: &[Outputs], nodes: &[Vec<NodeOutput>]) {
+        self.times.push(time);
+        for ((line, outputs), nodes) in self.lines.iter_mut().zip(outputs).zip(nodes) {
+            line.rows.push(*outputs);
+            line.watch_breaking_loads(time, outputs.tension_max, nodes);
+        }
+    }
+
+    /// Adds a snapshot: time [s] and each line's nodes then.
+    pub fn add_snapshot(&mut self, time: f64, nodes: &[Vec<NodeOutput>]) {
+        self.snapshot_times.push(time);
+        for (line, nodes) in self.lines.iter_mut().zip(nodes) {
+            line.snapshots.push(nodes.clone());
+        }
+    }
+
+    /// Time of the last row [s]; `None` before the first.
+    pub fn end_time(&self) -> Option<f64> {
+        self.times.last().copied()
+    }
+
+    /// Number of elements of all lines.
+    pub fn elements(&self) -> usize {
+        self.lines.iter().map(|line| line.elements).sum()
+    }
+
+    /// Work done by the solver for all lines.
+    pub fn counters(&self) -> Counters {
+        self.lines.iter().fold(Counters::default(), |sum, line| Counters {
+            steps: sum.steps + line.counters.steps,
+            rejected_steps: sum.rejected_steps + line.counters.rejected_steps,
+            newton_iterations: sum.newton_iterations + line.counters.newton_iterations,
+            factorisations: sum.factorisations + line.counters.factorisations,
+            element_iterations: sum.element_iterations + line.counters.element_iterations,
+        })
+    }
+
+    /// Simulated seconds per second of solver time; `None` where nothing was simulated.
+    pub fn times_real_time(&self) -> Option<f64> {
+        let simulated = self.end_time()?;
+        (simulated > 0.0 && self.solver_seconds > 0.0).then(|| simulated / self.solver_seconds)
+    }
+
+    /// The unit for all forces of this run.
+    pub fn force_unit(&self) -> ForceUnit {
+        let rows = self.lines.iter().flat_map(|line| line.rows.iter().map(|row| row.tension.max(row.anchor_tension)));
+        let statics = self.lines.iter().flat_map(|line| line.equilibrium.iter().map(|node| node.tension.abs()));
+        ForceUnit::for_largest(rows.chain(statics).fold(0.0, f64::max))
+    }
+
+    /// All warnings: those of the scene, then breaking loads exceeded.
+    pub fn warnings(&self) -> Vec<String> {
+        let overloads = self.lines.iter().flat_map(|line| line.parts.iter().filter_map(|part| part.warning(&line.name)));
+        self.scene_warnings.iter().cloned().chain(overloads).collect()
+    }
+}
+
+impl LineRecord {
+    fn new(scene: &Scene, index: usize) -> LineRecord {
+        let line = &scene.lines[index];
+        LineRecord {
+            name: line.name.clone(),
+            length: line.length(),
+            elements: 0,
+            statics: None,
+            equilibrium: Vec::new(),
+            rows: Vec::new(),
+            snapshots: Vec::new(),
+            counters: Counters::default(),
+            parts: parts_with_breaking_load(scene, index, &scene.line_types),
+        }
+    }
+
+    /// Statistics of one output over the rows, such as `|row| row.tension`; `None` without rows.
+    pub fn statistics(&self, output: impl Fn(&Outputs) -> f64 + Clone) -> Option<Statistics> {
+        Statistics::of(self.rows.iter().map(move |row| (row.time, output(row))))
+    }
+
+    fn watch_breaking_loads(&mut self, time: f64, tension_max: f64, nodes: &[NodeOutput]) {
+        for part in self.parts.iter_mut().filter(|part| tension_max > part.breaking_load) {
+            let here = part.from..=part.to;
+            nodes.iter().filter(|node| here.contains(&node.s)).for_each(|node| part.bear(time, node));
+        }
+    }
+}
+
+fn parts_with_breaking_load(scene: &Scene, index: usize, line_types: &BTreeMap<String, LineType>) -> Vec<Part> {
+    let mut parts = Vec::new();
+    let mut from = 0.0;
+    for (section, given) in scene.lines[index].sections.iter().enumerate() {
+        let to = from + given.length;
+        if let Some(breaking_load) = line_types.get(&given.line_type).and_then(|line_type| line_type.breaking_load) {
+            let rounding = 1.0e-9 * to;
+            parts.push(Part {
+                section,
+                line_type: given.line_type.clone(),
+                from: from - rounding,
+                to: to + rounding,
+                breaking_load,
+                exceeded: None,
+            });
+        }
+        from = to;
+    }
+    parts
+}
+
+impl Part {
+    fn bear(&mut self, time: f64, node: &NodeOutput) {
+        let worst = self.exceeded.map_or(self.breaking_load, |overload| overload.tension);
+        if node.tension > worst {
+            let first_time = self.exceeded.map_or(time, |overload| overload.first_time);
+            self.exceeded = Some(Overload { tension: node.tension, s: node.s, time, first_time });
+        }
+    }
+
+    fn warning(&self, line: &str) -> Option<String> {
+        let overload = self.exceeded?;
+        let unit = ForceUnit::for_largest(overload.tension);
+        Some(format!(
+            "line \"{line}\", sections[{}] \"{}\": the tension reaches {} at t = {} s, s = {:.4} m; its breaking load, {}, is exceeded \
+             first at t = {} s. The line is kept whole.",
+            self.section,
+            self.line_type,
+            unit.show(overload.tension),
+            sim_time(overload.time),
+            overload.s.max(0.0),
+            unit.show(self.breaking_load),
+            sim_time(overload.first_time),
+        ))
+    }
+}
+
+/// Arc length of the touchdown [m from the fairlead], where the line ends at its anchor on the bed; `None` where it does not.
+/// `grounded_length` [m] is unstretched and taken to reach from the touchdown to the anchor.
+pub fn touchdown(scene: &Scene, line: usize, grounded_length: f64) -> Option<f64> {
+    let given = &scene.lines[line];
+    let [x, y, z] = given.anchor;
+    let height = z - bed_height(scene, x, y);
+    let anchor_on_bed = height <= 1.0e-3 * scene.environment.depth;
+    (anchor_on_bed && grounded_length > 0.0).then(|| (given.length() - grounded_length).max(0.0))
+}
+
+/// Height of the seabed at (x, y) [m], up from still water.
+pub fn bed_height(scene: &Scene, x: f64, y: f64) -> f64 {
+    let [along_x, along_y] = scene.environment.seabed.slope_deg;
+    -scene.environment.depth + x * along_x.to_radians().tan() + y * along_y.to_radians().tan()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample::{node, outputs};
+
+    fn scene() -> Scene {
+        serde_json::from_value(serde_json::json!({
+            "environment": {"depth": 100.0, "seabed": {"slope_deg": [45.0, 0.0]}},
+            "line_types": {
+                "chain": {"ea": 1.0e8, "mass": 100.0, "diameter": 0.1, "breaking_load": 2.0e6},
+                "rope": {"ea": 1.0e8, "mass": 10.0, "diameter": 0.1, "breaking_load": 9.0e6}
+            },
+            "lines": [{
+                "name": "bow", "fairlead": [0.0, 0.0, 0.0], "anchor": [40.0, 0.0, -60.0],
+                "sections": [{"type": "rope", "length": 50.0}, {"type": "chain", "length": 30.0}]
+            }]
+        }))
+        .expect("a scene of this test")
+    }
+
+    #[test]
+    fn statistics_are_those_of_the_rows() {
+        let statistics = Statistics::of([(0.0, 2.0), (1.0, 4.0), (2.0, -6.0), (3.0, 4.0)].into_iter()).expect("rows");
+        assert_eq!((statistics.initial, statistics.mean), (2.0, 1.0));
+        assert_eq!((statistics.max, statistics.max_time), (4.0, 1.0));
+        assert_eq!((statistics.min, statistics.min_time), (-6.0, 2.0));
+        assert!((statistics.std - 17.0_f64.sqrt()).abs() < 1.0e-12);
+        assert!(Statistics::of(std::iter::empty()).is_none());
+    }
+
+    #[test]
+    fn a_breaking_load_warns_once_with_the_largest_tension_of_its_own_section() {
+        let mut record = Record::new(&scene(), "bow.json", vec!["a warning of the scene".to_string()], 1.0);
+        for (time, tension) in [(0.0, 1.5e6), (1.0, 2.2e6), (2.0, 3.0e6), (3.0, 2.5e6)] {
+            record.add_row(time, &[outputs(time, tension)], &[vec![node(0.0, 8.9e6), node(50.0, tension), node(80.0, 1.0e6)]]);
+        }
+        let warnings = record.warnings();
+        assert_eq!(warnings.len(), 2, "{warnings:?}");
+        for words in
+            ["line \"bow\"", "sections[1] \"chain\"", "3000.0 kN at t = 2 s", "s = 50.0000 m", "2000.0 kN", "first at t = 1 s"]
+        {
+            assert!(warnings[1].contains(words), "{words} is missing: {}", warnings[1]);
+        }
+    }
+
+    #[test]
+    fn touchdown_needs_an_anchor_on_the_bed() {
+        let mut scene = scene();
+        assert_eq!(bed_height(&scene, 40.0, 7.0).round(), -60.0);
+        assert_eq!(touchdown(&scene, 0, 20.0), Some(60.0));
+        assert_eq!(touchdown(&scene, 0, 0.0), None);
+        scene.lines[0].anchor[2] = -50.0;
+        assert_eq!(touchdown(&scene, 0, 20.0), None);
+    }
+}

@@ -1,1 +1,291 @@
-//! To be written.
+//! The tables a run leaves behind: `timeseries.csv` and `nodes.csv`, written as the run goes, and `summary.json`.
+
+use crate::error::Error;
+use crate::report::record::{LineRecord, Record, Statistics};
+use crate::scene::types::Scheme;
+use crate::solve::simulation::{NodeOutput, Outputs};
+use serde::Serialize;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Columns of a line in `timeseries.csv`, after `time`.
+const COLUMNS: [&str; 9] =
+    ["fairlead_x", "fairlead_y", "fairlead_z", "tension", "force_x", "force_y", "force_z", "anchor_tension", "grounded_length"];
+
+/// Creates a file, or overwrites it; says which one where that fails.
+pub fn create(path: &Path) -> Result<File, Error> {
+    File::create(path).map_err(|error| unwritable(path, &error))
+}
+
+/// Writes a whole file; says which one where that fails.
+pub fn write(path: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(path, text).map_err(|error| unwritable(path, &error))
+}
+
+fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Error {
+    Error::File { path: path.display().to_string(), reason: format!("cannot be written: {error}") }
+}
+
+/// A table of numbers on its way to a file. Every row reaches the file whole before the next is begun, so that a run that is
+/// stopped leaves complete rows.
+struct Table<W: Write> {
+    writer: csv::Writer<W>,
+    path: PathBuf,
+}
+
+impl<W: Write> Table<W> {
+    fn new(to: W, path: &Path) -> Table<W> {
+        // Room for many rows of nodes, so that a snapshot, too, goes out in few writes.
+        Table { writer: csv::WriterBuilder::new().buffer_capacity(1 << 16).from_writer(to), path: path.to_path_buf() }
+    }
+
+    fn row<T: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = T>) -> Result<(), Error> {
+        self.writer.write_record(cells).map_err(|error| unwritable(&self.path, &error))
+    }
+
+    fn flush(&mut self) -> Result<(), Error> {
+        self.writer.flush().map_err(|error| unwritable(&self.path, &error))
+    }
+}
+
+/// The shortest decimal number that reads back as the same float.
+fn number(value: f64) -> String {
+    format!("{:?}", value + 0.0)
+}
+
+/// `timeseries.csv`: one row per output time, each line's columns side by side.
+pub struct TimeSeries<W: Write> {
+    table: Table<W>,
+}
+
+impl<W: Write> TimeSeries<W> {
+    /// Writes the header. The columns of several lines are prefixed `NAME.`; `path` is for messages.
+    pub fn new(to: W, path: &Path, lines: &[&str]) -> Result<TimeSeries<W>, Error> {
+        let mut table = Table::new(to, path);
+        let prefix = |line: &str| if lines.len() == 1 { String::new() } else { format!("{line}.") };
+        let columns = lines.iter().flat_map(|line| COLUMNS.map(|column| prefix(line) + column));
+        table.row(std::iter::once("time".to_string()).chain(columns))?;
+        table.flush()?;
+        Ok(TimeSeries { table })
+    }
+
+    /// Writes the row of a time [s]: one set of outputs per line.
+    pub fn row(&mut self, time: f64, lines: &[Outputs]) -> Result<(), Error> {
+        let cells = lines.iter().flat_map(|line| {
+            [
+                line.fairlead.x,
+                line.fairlead.y,
+                line.fairlead.z,
+                line.tension,
+                line.force.x,
+                line.force.y,
+                line.force.z,
+                line.anchor_tension,
+                line.grounded_length,
+            ]
+        });
+        self.table.row(std::iter::once(time).chain(cells).map(number))?;
+        self.table.flush()
+    }
+}
+
+/// `nodes.csv`: the nodes of all lines at the snapshots, nodes counted from 0 at the fairlead.
+pub struct Nodes<W: Write> {
+    table: Table<W>,
+}
+
+impl<W: Write> Nodes<W> {
+    /// Writes the header; `path` is for messages.
+    pub fn new(to: W, path: &Path) -> Result<Nodes<W>, Error> {
+        let mut table = Table::new(to, path);
+        table.row(["time", "line", "node", "s", "x", "y", "z", "tension"])?;
+        table.flush()?;
+        Ok(Nodes { table })
+    }
+
+    /// Writes the snapshot of a time [s]: names and nodes of the lines.
+    pub fn snapshot<'a>(&mut self, time: f64, lines: impl Iterator<Item = (&'a str, &'a [NodeOutput])>) -> Result<(), Error> {
+        for (line, nodes) in lines {
+            for (index, node) in nodes.iter().enumerate() {
+                let [s, x, y, z] = [node.s, node.position.x, node.position.y, node.position.z].map(number);
+                self.table.row([number(time), line.to_string(), index.to_string(), s, x, y, z, number(node.tension)])?;
+            }
+        }
+        self.table.flush()
+    }
+}
+
+/// `summary.json`. Counters at the top are the sums over all lines; what belongs to one line stands under `lines`, in the order of
+/// the scene. The tension at the top is there for a scene of one line only; of several, none is *the* tension.
+#[derive(Serialize)]
+struct Summary<'a> {
+    program: &'static str,
+    title: &'a str,
+    scene: &'a str,
+    /// Whether the run reached its duration.
+    completed: bool,
+    /// Why not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
+    scheme: Scheme,
+    tolerance: f64,
+    duration: f64,
+    /// Time of the last row [s].
+    end_time: Option<f64>,
+    rows: usize,
+    snapshots: usize,
+    snapshot_step: f64,
+    #[serde(flatten)]
+    work: Work,
+    statics_seconds: f64,
+    solver_seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tension: Option<Statistics>,
+    lines: Vec<LineSummary<'a>>,
+    warnings: Vec<String>,
+}
+
+/// One line of the summary.
+#[derive(Serialize)]
+struct LineSummary<'a> {
+    name: &'a str,
+    #[serde(flatten)]
+    work: Work,
+    statics: Option<Statics>,
+    /// At the fairlead [N].
+    tension: Option<Statistics>,
+    /// At the anchor [N].
+    anchor_tension: Option<Statistics>,
+    /// Unstretched, in contact with the bed [m].
+    grounded_length: Option<Statistics>,
+}
+
+#[derive(Serialize)]
+struct Work {
+    elements: usize,
+    steps: usize,
+    rejected_steps: usize,
+    newton_iterations: usize,
+    factorisations: usize,
+    element_iterations: usize,
+}
+
+#[derive(Serialize)]
+struct Statics {
+    converged: bool,
+    iterations: usize,
+    /// Largest unbalanced nodal force [N].
+    residual: f64,
+}
+
+/// The text of `summary.json`.
+pub fn summary(record: &Record) -> String {
+    let lines: Vec<LineSummary> = record.lines.iter().map(line_summary).collect();
+    let summary = Summary {
+        program: concat!("moorline ", env!("CARGO_PKG_VERSION")),
+        title: &record.scene.title,
+        scene: &record.file,
+        completed: record.ended_by.is_none(),
+        error: record.ended_by.as_ref().map(|error| error.to_string()),
+        scheme: record.scene.solver.scheme,
+        tolerance: record.scene.solver.tolerance,
+        duration: record.scene.run.duration,
+        end_time: record.end_time(),
+        rows: record.times.len(),
+        snapshots: record.snapshot_times.len(),
+        snapshot_step: record.snapshot_step,
+        work: work(record.elements(), record.counters()),
+        statics_seconds: record.statics_seconds,
+        solver_seconds: record.solver_seconds,
+        tension: if lines.len() == 1 { lines[0].tension } else { None },
+        lines,
+        warnings: record.warnings(),
+    };
+    // Plain structs of numbers and strings: there is nothing in them that JSON cannot hold.
+    serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"
+}
+
+fn line_summary(line: &LineRecord) -> LineSummary<'_> {
+    let statics = |report: crate::solve::simulation::StaticsReport| Statics {
+        converged: report.converged,
+        iterations: report.iterations,
+        residual: report.residual,
+    };
+    LineSummary {
+        name: &line.name,
+        work: work(line.elements, line.counters),
+        statics: line.statics.map(statics),
+        tension: line.statistics(|row| row.tension),
+        anchor_tension: line.statistics(|row| row.anchor_tension),
+        grounded_length: line.statistics(|row| row.grounded_length),
+    }
+}
+
+fn work(elements: usize, counters: crate::solve::simulation::Counters) -> Work {
+    Work {
+        elements,
+        steps: counters.steps,
+        rejected_steps: counters.rejected_steps,
+        newton_iterations: counters.newton_iterations,
+        factorisations: counters.factorisations,
+        element_iterations: counters.element_iterations,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+    use nalgebra::Vector3;
+
+    fn outputs(tension: f64) -> Outputs {
+        Outputs {
+            fairlead: Vector3::new(1.0, -0.0, 1.0e-9),
+            anchor_tension: 1.0 / 3.0,
+            grounded_length: 689.0,
+            ..sample::outputs(0.3, tension)
+        }
+    }
+
+    fn written(lines: &[&str], rows: &[&[Outputs]]) -> String {
+        let mut bytes = Vec::new();
+        {
+            let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), lines).expect("header");
+            rows.iter().for_each(|row| table.row(0.3, row).expect("row"));
+        }
+        String::from_utf8(bytes).expect("text")
+    }
+
+    #[test]
+    fn one_line_has_bare_columns_and_every_digit() {
+        let text = written(&["line"], &[&[outputs(1_329_610.052_123)]]);
+        let mut lines = text.lines();
+        assert_eq!(
+            lines.next(),
+            Some("time,fairlead_x,fairlead_y,fairlead_z,tension,force_x,force_y,force_z,anchor_tension,grounded_length")
+        );
+        assert_eq!(lines.next(), Some("0.3,1.0,0.0,1e-9,1329610.052123,1329610.052123,0.0,0.0,0.3333333333333333,689.0"));
+    }
+
+    #[test]
+    fn several_lines_are_prefixed_and_odd_names_stay_one_cell() {
+        let text = written(&["bow", "a,b"], &[&[outputs(1.0), outputs(2.0)]]);
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let header = reader.headers().expect("header").clone();
+        assert_eq!(header.len(), 19);
+        assert_eq!((&header[4], &header[13]), ("bow.tension", "a,b.tension"));
+        let row = reader.records().next().expect("a row").expect("a row of the same length");
+        assert_eq!((&row[4], &row[13]), ("1.0", "2.0"));
+    }
+
+    #[test]
+    fn every_row_is_on_its_way_before_the_next_is_begun() {
+        let mut bytes = Vec::new();
+        let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), &["line"]).expect("header");
+        table.row(0.3, &[outputs(1.0)]).expect("row");
+        // Forgotten, the writer cannot flush on its way out: what is there was there before.
+        std::mem::forget(table);
+        assert_eq!(bytes.iter().filter(|byte| **byte == b'\n').count(), 2);
+    }
+}

@@ -45,10 +45,14 @@ pub struct Table {
     /// Length that counts in integrals [m]; 0 for joints.
     measure: Vec<f64>,
     mass: Vec<f64>,
-    weight: Vec<f64>,
+    weight_in_air: Vec<f64>,
+    buoyancy: Vec<f64>,
+    /// Height below which an element is certainly wet [m]; infinite where water is everywhere.
+    waterline: Vec<f64>,
     ea: Vec<f64>,
     damping: Vec<f64>,
     floor: Vec<f64>,
+    friction: Vec<f64>,
     ei: Vec<f64>,
     drag_normal: Vec<f64>,
     drag_tangential: Vec<f64>,
@@ -56,19 +60,25 @@ pub struct Table {
     added_tangential: Vec<f64>,
 }
 
+/// Bound of the friction of a slack element, as a share of its weight in air.
+const SLACK_FRICTION: f64 = 0.05;
+
 impl Table {
-    /// The properties of a mesh.
-    pub fn new(mesh: &Mesh) -> Table {
+    /// The properties of a mesh; `surface`: there is air above z = 0.
+    pub fn new(mesh: &Mesh, surface: bool) -> Table {
         let column =
             |f: &dyn Fn(&Properties) -> f64| -> Vec<f64> { (0..mesh.elements.len()).map(|e| f(mesh.properties_of(e))).collect() };
         Table {
             length: mesh.elements.iter().map(|e| if e.is_joint() { 1.0 } else { e.length }).collect(),
             measure: mesh.elements.iter().map(|e| e.length).collect(),
             mass: column(&|p| p.mass),
-            weight: column(&|p| p.weight),
+            weight_in_air: column(&|p| p.weight_in_air),
+            buoyancy: column(&|p| p.weight_in_air - p.weight),
+            waterline: column(&|p| if surface { -0.5 * p.diameter } else { f64::INFINITY }),
             ea: column(&|p| p.ea),
             damping: column(&|p| p.damping),
             floor: column(&|p| p.tension_floor()),
+            friction: mesh.elements.iter().map(|e| SLACK_FRICTION * mesh.sections[e.section].slack_weight() * e.length).collect(),
             ei: column(&|p| p.ei),
             drag_normal: column(&|p| p.drag_normal),
             drag_tangential: column(&|p| p.drag_tangential),
@@ -100,7 +110,8 @@ impl Table {
     /// Axial properties of elements from `e` on.
     #[inline(always)]
     pub fn axial<F: Real>(&self, e: usize) -> Axial<F> {
-        Axial { ea: F::load(&self.ea[e..]), damping: F::load(&self.damping[e..]), floor: F::load(&self.floor[e..]) }
+        let load = |column: &[f64]| F::load(&column[e..]);
+        Axial { ea: load(&self.ea), damping: load(&self.damping), floor: load(&self.floor), friction: load(&self.friction) }
     }
 
     /// Coefficients of the water's force on elements from `e` on.
@@ -145,10 +156,29 @@ impl<F: Real> Ends<F> {
         self.a.z * F::splat(n[0]) + self.da.z * F::splat(n[1]) + self.b.z * F::splat(n[2]) + self.db.z * F::splat(n[3])
     }
 
+    /// 1 where the element is certainly below the waterline, else 0.
+    #[inline(always)]
+    pub fn wet(&self, waterline: F) -> F {
+        let third = F::splat(1.0 / 3.0);
+        all_wet_lanes([self.a.z, self.a.z + self.da.z * third, self.b.z - self.db.z * third, self.b.z], waterline)
+    }
+
     /// End values and end slopes times length: r_i, L p_i, r_j, L p_j.
     pub fn parts(&self) -> [&Vector3<F>; 4] {
         [&self.a, &self.da, &self.b, &self.db]
     }
+}
+
+/// 1 where all control heights lie below the waterline, else 0; without branches.
+#[inline(always)]
+fn all_wet_lanes<F: Real>(heights: [F; 4], waterline: F) -> F {
+    let top = heights[0].max(heights[1]).max(heights[2].max(heights[3]));
+    ((waterline - top) * F::splat(1.0e200)).max(F::zero()).min(F::one())
+}
+
+/// Whether all control heights of an element lie below the waterline, by the rule of the fast loop.
+pub fn all_wet(heights: [f64; 4], waterline: f64) -> bool {
+    all_wet_lanes(heights, waterline) == 1.0
 }
 
 /// Adds the residual of every element to `out`.
@@ -167,9 +197,11 @@ pub fn forces<F: Real, S: Stretch, W: Water, B: Bending>(table: &Table, water: &
     let length = F::load(&table.length[e..]);
     let per_length = F::one() / length;
     let measure = F::load(&table.measure[e..]);
-    let (mass, weight, axial) = (F::load(&table.mass[e..]), F::load(&table.weight[e..]), table.axial::<F>(e));
+    let (mass, axial) = (F::load(&table.mass[e..]), table.axial::<F>(e));
     let (u, v, a) = (Ends::gather(at.u, e, length), Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
     let (ei, coefficients) = (F::load(&table.ei[e..]), table.coefficients::<F>(e));
+    let wet = u.wet(F::load(&table.waterline[e..]));
+    let weight = F::load(&table.weight_in_air[e..]) - F::load(&table.buoyancy[e..]) * wet;
     let mut sum: [Vector3<F>; 4] = [Vector3::zeros(); 4];
     for (gauss, shape) in GAUSS3.iter().zip(&SHAPES3) {
         let p = u.combine(&shape.slope) * per_length;
@@ -181,7 +213,7 @@ pub fn forces<F: Real, S: Stretch, W: Water, B: Bending>(table: &Table, water: &
         if W::PRESENT {
             let velocity = v.combine(&shape.value);
             let point = PointMotion { slope: p, height: u.combine_z(&shape.value), velocity, acceleration };
-            x -= morison::force(water, &coefficients, &point);
+            x -= morison::force(water, &coefficients, &point) * wet;
         }
         let w = F::splat(gauss.weight) * measure;
         let (x, n) = (x * w, n * w);
@@ -254,6 +286,7 @@ pub fn tangent<S: Stretch, W: Water, B: Bending>(
         let length = table.length[e];
         let (u, v, a) = (Ends::gather(at.u, e, length), Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let (axial, coefficients) = (table.axial::<f64>(e), table.coefficients::<f64>(e));
+        let wet = u.wet(table.waterline[e]);
         for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {
             let p = u.combine(&shape.slope) / length;
             let rate = v.combine(&shape.slope) / length;
@@ -272,8 +305,8 @@ pub fn tangent<S: Stretch, W: Water, B: Bending>(
                     acceleration: a.combine(&shape.value),
                 };
                 let (load, turning) = water_tangent(water, &coefficients, &motion, weights);
-                point.load -= load;
-                point.turning -= turning;
+                point.load -= load * wet;
+                point.turning -= turning * wet;
             }
             scatter(matrix, e, &shape.scaled(length), gauss.weight * length, &point);
         }

@@ -77,7 +77,7 @@ impl Supports {
 impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
-        let table = Table::new(&mesh);
+        let table = Table::new(&mesh, surface.is_some());
         Rod { mesh, table, water, ground, surface, fixed: supports.fixed, loads: supports.loads, laws: PhantomData }
     }
 

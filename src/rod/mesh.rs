@@ -87,6 +87,11 @@ impl Properties {
         if self.ei > 0.0 { f64::NEG_INFINITY } else { 0.0 }
     }
 
+    /// Weight in air [N/m] of a line that can go slack, else zero.
+    pub fn slack_weight(&self) -> f64 {
+        if self.ei > 0.0 { 0.0 } else { self.weight_in_air }
+    }
+
     /// Whether the slope may jump between this and a neighbouring section.
     fn joins_with_a_kink(&self, other: &Properties) -> bool {
         self.ea != other.ea || self.damping != other.damping || (self.ei > 0.0) != (other.ei > 0.0)
@@ -142,8 +147,10 @@ impl Mesh {
         self.elements.iter().map(Element::is_joint).collect()
     }
 
-    /// Weight in water of the whole line [N], every section by its absolute value.
+    /// Weight of the whole line [N] that forces are measured against: in water, every section by its absolute value, and at least
+    /// a tenth of that in air, so that a line that hardly sinks has a measure too.
     pub fn total_weight(&self) -> f64 {
-        self.elements.iter().map(|element| element.length * self.sections[element.section].weight.abs()).sum()
+        let per_length = |p: &Properties| p.weight.abs().max(0.1 * p.weight_in_air);
+        self.elements.iter().map(|element| element.length * per_length(&self.sections[element.section])).sum()
     }
 }

@@ -6,6 +6,13 @@
 //! r′ slope by unstretched arc length [-], e strain [-], ė its rate [1/s], T effective tension [N] positive pulling, EA [N],
 //! C Kelvin–Voigt time constant [s]. A line without bending stiffness carries no compression: T ≥ 0 (`floor` = 0); the
 //! damped law with that limit is continuous and never gives energy: (T - EA max(e, 0)) ė ≥ 0.
+//!
+//! An element that goes slack is bunched: its slopes have mass but no stiffness and would keep the energy of the last snap for
+//! ever. What a real line loses there in folding, a bounded friction takes up,
+//!
+//!     n_s = f_s b(e) ṙ′ / √(ė_0² + ṙ′·ṙ′),   b = min(1, max(0, -e/e_0)),   e_0 = 0.01, ė_0 = 0.1 1/s,
+//!
+//! f_s a twentieth of the element's weight in air, so that it vanishes with the mesh.
 
 use crate::algebra::lanes::{Real, length};
 use nalgebra::{Matrix3, Vector3};
@@ -19,6 +26,33 @@ pub struct Axial<F> {
     pub damping: F,
     /// Least tension [N]: 0 where the line goes slack, -∞ where bending stiffness carries compression.
     pub floor: F,
+    /// f_s, bound of the friction of a slack element [N].
+    pub friction: F,
+}
+
+/// e_0, slackness at which the friction is whole [-].
+const BUNCHED: f64 = 0.01;
+/// ė_0, rate at which the friction nears its bound [1/s].
+const RATE: f64 = 0.1;
+
+/// Friction n_s of a slack element [N].
+#[inline(always)]
+fn slack_force<F: Real>(law: &Axial<F>, strain: F, rate: &Vector3<F>) -> Vector3<F> {
+    let bunched = (strain * F::splat(-1.0 / BUNCHED)).max(F::zero()).min(F::one());
+    let speed = (rate.dot(rate) + F::splat(RATE * RATE)).sqrt();
+    rate * (law.friction * bunched / speed)
+}
+
+/// Tangent of n_s.
+fn slack_tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> AxialTangent {
+    let stretch = length(p);
+    let bunched = ((1.0 - stretch) / BUNCHED).clamp(0.0, 1.0);
+    let by_stretch = if bunched > 0.0 && bunched < 1.0 { -1.0 / BUNCHED } else { 0.0 };
+    let speed = (rate.dot(rate) + RATE * RATE).sqrt();
+    AxialTangent {
+        by_slope: rate * p.transpose() * (law.friction * by_stretch / (speed * stretch)),
+        by_rate: (Matrix3::identity() - rate * rate.transpose() / (speed * speed)) * (law.friction * bunched / speed),
+    }
 }
 
 /// Tangent of the axial force: ∂n/∂r′ and ∂n/∂ṙ′ [N].
@@ -54,7 +88,7 @@ impl Stretch for Exact {
         let stretch = length(p);
         let t = p * (F::one() / stretch);
         let tension = law.ea * (stretch - F::one() + law.damping * t.dot(rate));
-        t * tension.max(law.floor)
+        t * tension.max(law.floor) + slack_force(law, stretch - F::one(), rate)
     }
 
     fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
@@ -62,8 +96,7 @@ impl Stretch for Exact {
         let t = p / stretch;
         let tension = Self::tension(law, p, rate);
         if tension <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
-            let across = (Matrix3::identity() - t * t.transpose()) * (law.floor.max(0.0) / stretch);
-            return AxialTangent { by_slope: across, by_rate: Matrix3::zeros() };
+            return slack_tangent(law, p, rate);
         }
         let along = t * t.transpose();
         let across = Matrix3::identity() - along;
@@ -100,18 +133,20 @@ impl Stretch for Report {
     fn force<F: Real>(law: &Axial<F>, p: &Vector3<F>, rate: &Vector3<F>) -> Vector3<F> {
         let half = F::splat(0.5);
         let lambda = law.ea * (half * (p.dot(p) - F::one()) + law.damping * p.dot(rate));
-        p * lambda.max(law.floor)
+        p * lambda.max(law.floor) + slack_force(law, length(p) - F::one(), rate)
     }
 
     fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
         let lambda = law.ea * (0.5 * (p.dot(p) - 1.0) + law.damping * p.dot(rate));
         if lambda <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
-            return AxialTangent { by_slope: Matrix3::identity() * law.floor.max(0.0), by_rate: Matrix3::zeros() };
+            return slack_tangent(law, p, rate);
         }
+        let slack = slack_tangent(law, p, rate);
         AxialTangent {
             by_slope: (p * p.transpose() + p * rate.transpose() * law.damping) * law.ea
-                + Matrix3::identity() * geometric.unwrap_or(lambda).max(law.floor),
-            by_rate: p * p.transpose() * (law.ea * law.damping),
+                + Matrix3::identity() * geometric.unwrap_or(lambda).max(law.floor)
+                + slack.by_slope,
+            by_rate: p * p.transpose() * (law.ea * law.damping) + slack.by_rate,
         }
     }
 

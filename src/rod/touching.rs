@@ -1,13 +1,13 @@
 //! Loads that act on a part of an element only: the bed where it touches, the surface where it is dry.
 //!
-//! These few elements leave the fast loop untouched: their share is added (bed) or taken off again (dry part) afterwards.
+//! The fast loop knows nothing of the bed, and leaves the water out on elements that may not be all wet; both are added here.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, Shape};
 use crate::rod::element::{self, Ends, Motion, PointTangent, Table, Weights};
 use crate::rod::mesh::Mesh;
-use crate::rod::morison::{self, PointMotion, Water};
+use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::seabed::{Plane, Resistance, projector};
 use crate::rod::state::Field;
 use crate::rod::surface;
@@ -114,31 +114,33 @@ impl Surface {
         let ends = Ends::gather(u, e, table.length_of(e));
         let [r0, l0, r1, l1] = ends.parts();
         let height = Cubic::hermite(r0.z, l0.z, r1.z, l1.z);
-        (!height.below(-0.5 * self.diameter[e]) && !table.is_joint(e)).then_some((ends, height))
+        (!element::all_wet(height.0, -0.5 * self.diameter[e]) && !table.is_joint(e)).then_some((ends, height))
     }
 
-    /// What the missing force of the water on the dry share of element `e` adds to the forces on its ends, if it is lifted.
+    /// What the force of the water on the wet share of element `e` adds to the forces on its ends, if the element is lifted.
     pub fn forces<W: Water>(&self, table: &Table, water: &W, at: &Motion, e: usize) -> Option<[Vector3<f64>; 4]> {
         let (u, height) = self.lifted(table, at.u, e)?;
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients::<f64>(e);
         let mut sum = [Vector3::zeros(); 4];
-        for part in surface::dry_parts(&height, self.diameter[e]) {
-            let wet_force = |shape: &Shape| {
+        for part in surface::wet_parts(&height, self.diameter[e]) {
+            let force = |shape: &Shape| {
                 let point = point_motion(&u, &v, &a, length, shape);
-                let mut f = Vector3::new(0.0, 0.0, self.buoyancy[e]);
-                if W::PRESENT {
-                    f += morison::force(water, &coefficients, &point);
-                }
-                f * surface::dry_fraction(point.height, self.diameter[e]).0
+                self.force(water, &coefficients, &point, e) * -surface::wet_fraction(point.height, self.diameter[e]).0
             };
-            integrate(&GAUSS3, part, length, wet_force, &mut sum);
+            integrate(&GAUSS3, part, length, force, &mut sum);
         }
         Some(sum)
     }
 
-    /// Takes the tangent of the dry share off the matrix.
+    /// Force of the water under water [N/m].
+    fn force<W: Water>(&self, water: &W, k: &Coefficients<f64>, point: &PointMotion<f64>, e: usize) -> Vector3<f64> {
+        let buoyancy = Vector3::new(0.0, 0.0, self.buoyancy[e]);
+        if W::PRESENT { morison::force(water, k, point) + buoyancy } else { buoyancy }
+    }
+
+    /// Adds the tangent of the force of the water on the wet share of a lifted element to the matrix.
     pub fn tangent<W: Water>(
         &self,
         table: &Table,
@@ -152,20 +154,19 @@ impl Surface {
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients::<f64>(e);
-        for part in surface::dry_parts(&height, self.diameter[e]) {
+        for part in surface::wet_parts(&height, self.diameter[e]) {
             for gauss in &GAUSS3 {
                 let shape = Shape::at(part.from + (part.to - part.from) * gauss.x);
                 let point = point_motion(&u, &v, &a, length, &shape);
-                let (dry, by_height) = surface::dry_fraction(point.height, self.diameter[e]);
-                let mut f = Vector3::new(0.0, 0.0, self.buoyancy[e]);
+                let (wet, by_height) = surface::wet_fraction(point.height, self.diameter[e]);
                 let mut tangent = PointTangent::of_load(Matrix3::zeros(), Matrix3::zeros());
                 if W::PRESENT {
-                    f += morison::force(water, &coefficients, &point);
                     let (load, turning) = element::water_tangent(water, &coefficients, &point, weights);
-                    tangent.load = load * dry;
-                    tangent.turning = turning * dry;
+                    tangent.load = load * -wet;
+                    tangent.turning = turning * -wet;
                 }
-                tangent.load += f * Vector3::z().transpose() * (by_height * weights.u);
+                let force = self.force(water, &coefficients, &point, e);
+                tangent.load -= force * Vector3::z().transpose() * (by_height * weights.u);
                 let scale = gauss.weight * (part.to - part.from) * length;
                 element::scatter(matrix, e, &shape.scaled(length), scale, &tangent);
             }

@@ -9,8 +9,10 @@ use crate::solve::scheme::{self, Bench, Moment, Scheme};
 /// What a run demands of its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demands {
-    /// Local error of the positions allowed in a step of one second [m]; shorter steps are allowed their share.
-    pub error_rate: f64,
+    /// Local error of the positions allowed in a step [m].
+    pub error: f64,
+    /// The step is not shortened below this for the sake of the error alone [s].
+    pub finest_step: f64,
     /// Longest step [s].
     pub max_step: f64,
     /// Step without control [s].
@@ -28,6 +30,8 @@ pub struct Tally {
     pub rejected: usize,
     /// Steps taken by the L-stable method instead of the chosen one.
     pub guarded: usize,
+    /// Steps of the finest length whose error was still above the allowed one: the motion is rougher than time can resolve.
+    pub unresolved: usize,
     /// Largest estimated error of an accepted step over the allowed one.
     pub error: f64,
 }
@@ -43,6 +47,8 @@ pub struct Failure {
     pub stall: Option<Stall>,
 }
 
+/// After a rejected step this many are taken by the L-stable method: what rings there, dies away.
+const GUARDED_STEPS: u32 = 8;
 /// Halvings of a step before giving up.
 const HALVINGS: i32 = 24;
 
@@ -76,48 +82,44 @@ impl Controller {
         mut accepted: impl FnMut(&Moment),
     ) -> Result<(), Failure> {
         let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.time) * 0.5f64.powi(HALVINGS);
-        let mut trouble = 0;
+        let controlled = demands.fixed_step.is_none();
+        let mut halved = false;
         while until - moment.time > 1e-12 * until.abs().max(1.0) {
             let remaining = until - moment.time;
-            let wanted = match demands.fixed_step {
-                Some(step) if trouble == 0 => step,
-                _ => moment.step.min(demands.max_step),
-            };
+            let wanted = demands.fixed_step.filter(|_| !halved).unwrap_or(moment.step.min(demands.max_step));
             let count = (remaining / wanted - 1e-6).ceil().max(1.0);
             let h = remaining / count;
-            let outcome = if trouble >= 3 {
-                self.guard.step(bench, moment, h, &mut self.next)
-            } else {
-                self.scheme.step(bench, moment, h, &mut self.next)
-            };
-            let verdict = match outcome {
-                Ok(error) => Ok(error / (demands.error_rate * h)),
-                Err(stall) => Err(Some(stall)),
-            };
-            let controlled = demands.fixed_step.is_none();
-            match verdict {
-                Ok(ratio) if ratio <= 1.2 || !controlled && ratio.is_finite() => {
+            let guarded = moment.guard > 0;
+            let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };
+            let order = scheme.error_order();
+            let outcome = scheme.step(bench, moment, h, &mut self.next).map(|error| error / demands.error);
+            let resolved = |ratio: f64| ratio <= 1.2 || (!controlled || h <= demands.finest_step) && ratio.is_finite();
+            match outcome {
+                Ok(ratio) if resolved(ratio) => {
                     self.tally.steps += 1;
-                    self.tally.guarded += usize::from(trouble >= 3);
+                    self.tally.guarded += usize::from(guarded);
+                    self.tally.unresolved += usize::from(controlled && ratio > 1.2);
                     self.tally.error = self.tally.error.max(ratio);
-                    trouble = if trouble > 3 { trouble - 1 } else { 0 };
                     self.accept(moment, h, if count == 1.0 { until } else { moment.time + h });
-                    moment.step = next_step(h, ratio, self.scheme.error_order() - 1.0).min(demands.max_step);
+                    moment.guard = moment.guard.saturating_sub(1);
+                    moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
+                    halved = false;
                     accepted(moment);
                 }
-                verdict => {
+                Ok(ratio) if ratio.is_finite() => {
                     self.tally.rejected += 1;
-                    let stall = verdict.err().flatten();
-                    if stall.is_some() {
-                        trouble += 1;
-                        moment.last_step = 0.0;
-                        bench.newton.forget();
-                    }
-                    let shrink =
-                        verdict.map_or(0.5, |ratio| (0.9 * ratio.powf(-1.0 / (self.scheme.error_order() - 1.0))).clamp(0.2, 0.9));
-                    moment.step = h * if shrink.is_finite() { shrink } else { 0.2 };
+                    moment.guard = GUARDED_STEPS;
+                    moment.step = (h * (0.9 * ratio.powf(-1.0 / order)).clamp(0.2, 0.9)).max(0.9 * demands.finest_step);
+                }
+                failed => {
+                    self.tally.rejected += 1;
+                    moment.guard = GUARDED_STEPS;
+                    moment.last_step = 0.0;
+                    moment.step = 0.5 * h;
+                    halved = true;
+                    bench.newton.forget();
                     if moment.step < smallest {
-                        return Err(Failure { time: moment.time + h, step: h, stall });
+                        return Err(Failure { time: moment.time + h, step: h, stall: failed.err() });
                     }
                 }
             }
@@ -144,5 +146,5 @@ fn next_step(h: f64, ratio: f64, order: f64) -> f64 {
 
 /// A moment at rest.
 pub fn at_rest(nodes: usize, time: f64, step: f64) -> Moment {
-    Moment { time, state: State::new(nodes), earlier: Field::new(nodes), last_step: 0.0, step }
+    Moment { time, state: State::new(nodes), earlier: Field::new(nodes), last_step: 0.0, step, guard: 0 }
 }

@@ -4,7 +4,8 @@
 //!
 //!     V = v₀ + h Σ_{j<i} a_ij A_j + γh x,   U = u₀ + h Σ_{j<i} a_ij V_j + γh V,   R(U, V, x, t₀ + c_i h) = 0
 //!
-//! so all stages share one matrix. The last stage is the end of the step. Error of u: h Σ (b_i - b̂_i) V_i.
+//! so all stages share one matrix. The last stage is the end of the step. Error of u: h Σ (b_i - b̂_i) V_i, filtered
+//! by the stage matrix.
 
 use crate::rod::element::Weights;
 use crate::rod::state::{Field, State};
@@ -126,6 +127,7 @@ impl Scheme for Esdirk {
         for &(node, component) in bench.line.fixed() {
             self.error.component_mut(component)[node] = 0.0;
         }
+        bench.filter(next, &mut self.error, &mut self.base);
         Ok(largest_position(&self.error))
     }
 

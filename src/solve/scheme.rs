@@ -22,6 +22,8 @@ pub struct Moment {
     pub last_step: f64,
     /// Length aimed at for the next step [s].
     pub step: f64,
+    /// Steps still to be taken by the L-stable method.
+    pub guard: u32,
 }
 
 /// What a step works with.

@@ -10,7 +10,7 @@ pub struct Snapshot {
     pub(super) moment: Moment,
     pub(super) work: f64,
     pub(super) fresh: bool,
-    pub(super) error_rate: f64,
+    pub(super) error: f64,
     pub(super) last: LastStep,
 }
 
@@ -23,8 +23,9 @@ impl Snapshot {
     /// Appends the state as little-endian 8-byte words: nodes, flags and counts, scalars, then u, v, a and the earlier a.
     pub fn to_bytes(&self, out: &mut Vec<u8>) {
         let (m, last) = (&self.moment, &self.last);
-        let words = [self.nodes() as u64, u64::from(self.fresh), last.substeps as u64, last.newton_iterations as u64];
-        let scalars = [m.time, m.last_step, m.step, self.work, self.error_rate, last.error_estimate];
+        let words =
+            [self.nodes() as u64, u64::from(self.fresh), u64::from(m.guard), last.substeps as u64, last.newton_iterations as u64];
+        let scalars = [m.time, m.last_step, m.step, self.work, self.error, last.error_estimate];
         let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier];
         let numbers = scalars.iter().chain(fields.into_iter().flat_map(|field| field.data())).map(|x| x.to_bits());
         words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
@@ -34,7 +35,7 @@ impl Snapshot {
     pub fn from_bytes(bytes: &[u8]) -> Option<Snapshot> {
         let mut words = bytes.chunks_exact(8).map(|chunk| chunk.try_into().map(u64::from_le_bytes).unwrap_or(0));
         let nodes = usize::try_from(words.next()?).ok()?;
-        let expected = nodes.checked_mul(4 * COMPONENTS)?.checked_add(10)?.checked_mul(8)?;
+        let expected = nodes.checked_mul(4 * COMPONENTS)?.checked_add(11)?.checked_mul(8)?;
         if bytes.len() != expected || nodes < 2 {
             return None;
         }
@@ -43,9 +44,10 @@ impl Snapshot {
             1 => true,
             _ => return None,
         };
+        let guard = u32::try_from(words.next()?).ok()?;
         let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
-        let (time, last_step, step, work, error_rate, error_estimate) =
+        let (time, last_step, step, work, error, error_estimate) =
             (number()?, number()?, number()?, number()?, number()?, number()?);
         let mut field = || {
             let mut field = Field::new(nodes);
@@ -56,10 +58,10 @@ impl Snapshot {
         };
         let (u, v, a, earlier) = (field()?, field()?, field()?, field()?);
         Some(Snapshot {
-            moment: Moment { time, state: State { u, v, a }, earlier, last_step, step },
+            moment: Moment { time, state: State { u, v, a }, earlier, last_step, step, guard },
             work,
             fresh,
-            error_rate,
+            error,
             last: LastStep { substeps, newton_iterations, error_estimate },
         })
     }

@@ -28,134 +28,173 @@ impl Balance {
     pub fn converged(&self) -> bool {
         self.residual <= self.allowed
     }
+
+    /// The same balance, judged by what is promised to the user instead of by what is aimed at.
+    fn judged(self) -> Balance {
+        Balance { allowed: self.allowed * (PROMISED / AIMED), ..self }
+    }
 }
 
 /// Largest change of a slope in one iteration [-].
 const LONGEST_STEP: f64 = 0.4;
-/// Unbalanced force that counts as equilibrium, relative to the line's weight or end tension.
-const BALANCED: f64 = 1.0e-7;
+/// Unbalanced force that is aimed at, relative to the line's weight or end tension.
+const AIMED: f64 = 1.0e-7;
+/// Unbalanced force that counts as equilibrium where no more is to be had.
+const PROMISED: f64 = 1.0e-6;
 
-/// Brings `state` (ends in place) to equilibrium; v and a are zero on return.
-pub fn settle(line: &dyn Line, newton: &mut Newton, state: &mut State) -> Balance {
+/// Brings `state` (ends in place) to equilibrium; v and a are zero on return. `soften` makes the same line with its EA limited [N].
+pub fn settle(line: &dyn Line, soften: &dyn Fn(f64) -> Box<dyn Line>, newton: &mut Newton, state: &mut State) -> Balance {
     state.v.fill(0.0);
     state.a.fill(0.0);
     let start = state.u.clone();
-    let mut best = (f64::INFINITY, state.u.clone());
-    let mut iterations = 0;
-    let mut last = None;
-    for attempt in ATTEMPTS {
-        let mut walk = Walk::new(line, state.u.clone());
-        let balance = walk.run(line, newton, state, &attempt);
-        iterations += balance.iterations;
-        let balance = Balance { iterations, ..balance };
-        if balance.converged() {
-            return balance;
-        }
-        if balance.residual / balance.allowed < best.0 {
-            best = (balance.residual / balance.allowed, state.u.clone());
-            last = Some(balance);
-        }
-        state.u.copy_from(&start);
+    let mut walk = Walk::new(line);
+    let direct = walk.run(line, newton, state, &Attempt { iterations: 25, inertia: 0.0, mixed: true, allowed: AIMED });
+    if direct.converged() {
+        return direct;
     }
-    state.u.copy_from(&best.1);
-    last.map_or(Balance { iterations, residual: f64::INFINITY, allowed: 0.0, node: 0 }, |balance| Balance {
-        iterations,
-        ..balance
-    })
+    let (stood, mut iterations) = (state.u.clone(), direct.iterations);
+    state.u.copy_from(&start);
+    let mesh = line.mesh();
+    let stiffest = mesh.sections.iter().map(|section| section.ea).fold(0.0, f64::max);
+    let mut limit = SOFT * mesh.total_weight().max(1e-6 * stiffest);
+    while limit < stiffest {
+        let soft = soften(limit);
+        let attempt = Attempt { iterations: 60, inertia: 1.0, mixed: false, allowed: 1e-3 };
+        iterations += walk.run(soft.as_ref(), newton, state, &attempt).iterations;
+        limit *= STIFFER;
+    }
+    let last = walk.run(line, newton, state, &Attempt { iterations: 400, inertia: 1.0, mixed: false, allowed: AIMED });
+    iterations += last.iterations;
+    if last.converged() || last.residual < direct.residual {
+        return Balance { iterations, ..last.judged() };
+    }
+    state.u.copy_from(&stood);
+    Balance { iterations, ..direct.judged() }
 }
+
+/// EA of the first softened line, as a multiple of the line's weight.
+const SOFT: f64 = 10.0;
+/// Ratio of EA between softened lines.
+const STIFFER: f64 = 10.0;
 
 /// One way to walk to equilibrium.
 struct Attempt {
     /// Iterations at most.
     iterations: usize,
-    /// First μ, as a multiple of (weight / (mass · length)).
+    /// First μ, as a multiple of weight / (mass · length); 0: none unless the tangent is singular.
     inertia: f64,
-    /// Use the predicted tension in the geometric stiffness.
+    /// Use the tension predicted to first order in the geometric stiffness, and take whole steps; else search along each step.
     mixed: bool,
+    /// Unbalanced force that is good enough, relative to weight or end tension.
+    allowed: f64,
 }
 
-const ATTEMPTS: [Attempt; 4] = [
-    Attempt { iterations: 40, inertia: 0.0, mixed: true },
-    Attempt { iterations: 150, inertia: 10.0, mixed: true },
-    Attempt { iterations: 300, inertia: 100.0, mixed: false },
-    Attempt { iterations: 600, inertia: 1.0e4, mixed: true },
-];
-
-/// Memory of one attempt.
+/// Memory of a walk.
 struct Walk {
     residual: Field,
     tension: Vec<f64>,
-    previous: Field,
+    from: Field,
+    step: Field,
 }
 
 impl Walk {
-    fn new(line: &dyn Line, u: Field) -> Walk {
-        let mut tension = vec![0.0; 3 * line.mesh().elements.len()];
-        let zero = Field::new(u.nodes());
-        line.tensions(&u, &zero, &mut tension);
-        Walk { residual: zero, tension, previous: u }
+    fn new(line: &dyn Line) -> Walk {
+        let field = || Field::new(line.mesh().nodes());
+        Walk { residual: field(), tension: vec![0.0; 3 * line.mesh().elements.len()], from: field(), step: field() }
     }
 
     fn run(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
         let mesh = line.mesh();
         let mass: f64 = mesh.elements.iter().map(|e| e.length * mesh.sections[e.section].mass).sum();
-        let weight = mesh.total_weight().max(1e-3 * mass);
-        let unit = weight / (mass * mesh.length);
+        let unit = mesh.total_weight().max(mass) / (mass * mesh.length);
         let mut mu = attempt.inertia * unit;
-        let mut balance = self.balance(line, state, 0);
-        let mut calm = 0;
+        line.tensions(&state.u, &state.v, &mut self.tension);
+        let mut balance = self.balance(line, state, attempt);
         for iteration in 1..=attempt.iterations {
             if balance.converged() {
-                return balance;
+                break;
             }
             let weights = Weights { u: 1.0, v: 0.0, a: mu };
             let geometric = attempt.mixed.then_some(&self.tension[..]);
-            if newton.factor(line, &motion(state), &weights, geometric).is_err() {
-                mu = (10.0 * mu).max(unit);
-                balance.iterations = iteration;
-                continue;
+            let factored = newton.factor(line, &motion(state), &weights, geometric).is_ok();
+            self.step.copy_from(&self.residual);
+            newton.solve_linear(line, &mut self.step);
+            let turn = largest_slope(&self.step, mesh.length);
+            let mut length = 0.0;
+            if factored && turn.is_finite() {
+                let scale = -(LONGEST_STEP / turn).min(1.0);
+                self.step.data_mut().iter_mut().for_each(|x| *x *= scale);
+                line.linear_tensions(&state.u, &self.step, &mut self.tension);
+                self.from.copy_from(&state.u);
+                length =
+                    if attempt.mixed { self.move_by(1.0, line, state).map_or(0.0, |_| 1.0) } else { self.search(line, state) };
+                if length == 0.0 {
+                    state.u.copy_from(&self.from);
+                }
+                mu *= if length < 0.3 {
+                    4.0
+                } else if length == 1.0 && scale == -1.0 {
+                    0.1
+                } else {
+                    1.0
+                };
             }
-            let mut step = self.residual.clone();
-            newton.solve_linear(line, &mut step);
-            let turn = largest_slope(&step, mesh.length);
-            if !turn.is_finite() {
-                mu = (10.0 * mu).max(unit);
-                balance.iterations = iteration;
-                continue;
+            if length == 0.0 {
+                mu = (10.0 * mu).max(1e-3 * unit);
             }
-            let scale = -(LONGEST_STEP / turn).min(1.0);
-            step.data_mut().iter_mut().for_each(|x| *x *= scale);
-            line.linear_tensions(&state.u, &step, &mut self.tension);
-            self.previous.copy_from(&state.u);
-            state.u.add(1.0, &step);
-            let before = balance.residual;
-            balance = self.balance(line, state, iteration);
-            if !balance.residual.is_finite() {
-                state.u.copy_from(&self.previous);
-                balance = self.balance(line, state, iteration);
-                mu = (10.0 * mu).max(unit);
-                continue;
-            }
-            // Fall with the residual; after a limited or worsening step rise again.
-            calm = if scale > -1.0 { 0 } else { calm + 1 };
-            let factor =
-                if calm == 0 { 2.0 } else { (balance.residual / before).clamp(0.1, 2.0).min(if calm > 3 { 0.5 } else { 2.0 }) };
-            mu = if attempt.inertia > 0.0 { mu * factor } else { mu * 0.1 };
+            balance = Balance { iterations: iteration, ..self.balance(line, state, attempt) };
         }
         balance
     }
 
-    /// The unbalanced force at a state; leaves the residual in place.
-    fn balance(&mut self, line: &dyn Line, state: &State, iterations: usize) -> Balance {
+    /// Moves to `from` + length·step and returns R·step there: the slope of the energy along the step, where there is an energy.
+    fn move_by(&mut self, length: f64, line: &dyn Line, state: &mut State) -> Option<f64> {
+        state.u.set_sum(&self.from, length, &self.step);
+        self.evaluate(line, state);
+        let slope = dot(&self.residual, &self.step);
+        slope.is_finite().then_some(slope)
+    }
+
+    /// Searches along the step for a place where the energy no longer falls; returns the share of the step taken.
+    fn search(&mut self, line: &dyn Line, state: &mut State) -> f64 {
+        let Some(before) = self.move_by(0.0, line, state) else { return 0.0 };
+        let (mut low, mut high) = ((0.0, before), None::<(f64, f64)>);
+        let mut length = 1.0;
+        for _ in 0..12 {
+            match self.move_by(length, line, state) {
+                Some(slope) if slope <= 0.1 * before.abs() && (slope >= -0.5 * before.abs() || high.is_none()) => return length,
+                Some(slope) if slope < 0.0 => low = (length, slope),
+                Some(slope) => high = Some((length, slope)),
+                None => high = Some((length, f64::INFINITY)),
+            }
+            let Some(high) = high else { return length };
+            // Between regula falsi and bisection, so that a steep wall on one side does not stop the search.
+            let chord = if high.1.is_finite() { low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1) } else { low.0 };
+            let width = high.0 - low.0;
+            length = chord.clamp(low.0 + 0.1 * width, high.0 - 0.1 * width);
+        }
+        length
+    }
+
+    fn evaluate(&mut self, line: &dyn Line, state: &State) {
         line.residual(&motion(state), &mut self.residual);
-        let end_tension = [0, line.last()].map(|node| self.residual.position(node).norm()).into_iter().fold(0.0, f64::max);
         for &(node, component) in line.fixed() {
             self.residual.component_mut(component)[node] = 0.0;
         }
-        let (residual, node) = largest_force(line, &self.residual);
-        let allowed = BALANCED * line.mesh().total_weight().max(end_tension).max(f64::MIN_POSITIVE);
-        Balance { iterations, residual, allowed, node }
     }
+
+    /// The unbalanced force at a state; leaves the residual in place.
+    fn balance(&mut self, line: &dyn Line, state: &State, attempt: &Attempt) -> Balance {
+        self.evaluate(line, state);
+        let end_tension = line.end_force(&motion(state)).norm();
+        let (residual, node) = largest_force(line, &self.residual);
+        let allowed = attempt.allowed * line.mesh().total_weight().max(end_tension).max(f64::MIN_POSITIVE);
+        Balance { iterations: 0, residual, allowed, node }
+    }
+}
+
+fn dot(a: &Field, b: &Field) -> f64 {
+    a.data().iter().zip(b.data()).map(|(a, b)| a * b).sum()
 }
 
 /// Largest unbalanced force; moments on slopes count as forces at the length of the element beside them.

@@ -1,0 +1,168 @@
+//! What was typed, and which command answers it. One file per command stands beside this one.
+
+use crate::cli::{check, console, convert, pack, run, schema, statics};
+use crate::error::Error;
+use crate::scene::read::{self, Loaded};
+use clap::{Args, Parser, Subcommand};
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const AFTER_HELP: &str = "\
+Without a command, moorline runs the built-in case of Lindahl & Sjöberg (1983) and writes the results into `out`.
+
+Exit codes: 0 done; 2 bad input; 3 no convergence; 130 stopped with Ctrl-C.";
+
+/// Mooring lines: static equilibrium and dynamics, with a report to look at.
+#[derive(Debug, Parser)]
+#[command(name = "moorline", version, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
+struct Arguments {
+    #[command(flatten)]
+    run: RunOptions,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Statics, then dynamics; writes timeseries.csv, nodes.csv, summary.json and report.html
+    Run(RunArguments),
+    /// Static equilibrium: end forces, tensions, touchdown, node table
+    Statics(StaticsArguments),
+    /// Validate a scene and say which physics is on, what is skipped and why, mesh and cost
+    Check(SceneArguments),
+    /// Print the JSON Schema of the scene
+    Schema,
+    /// Write an FMU (comes with a later version)
+    Pack(PackArguments),
+    /// JSON scene to CABLE file and back (comes with a later version)
+    Convert(ConvertArguments),
+}
+
+/// `moorline run`.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// Scene file; without one, the built-in case of Lindahl & Sjöberg
+    pub scene: Option<PathBuf>,
+    /// Where to and how.
+    #[command(flatten)]
+    pub options: RunOptions,
+}
+
+/// How to run, whatever the scene.
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    /// Directory of the results; made where it does not exist
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub output: PathBuf,
+    /// Value to put into the scene before it is checked, such as run.duration=60; repeatable
+    #[arg(long = "set", value_name = "PLACE=VALUE")]
+    pub sets: Vec<String>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// `moorline statics`.
+#[derive(Debug, Args)]
+pub struct StaticsArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Print JSON instead of tables
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A scene and what to change in it.
+#[derive(Debug, Args)]
+pub struct SceneArguments {
+    /// Scene file
+    pub scene: PathBuf,
+    /// Value to put into the scene before it is checked, such as environment.depth=100; repeatable
+    #[arg(long = "set", value_name = "PLACE=VALUE")]
+    pub sets: Vec<String>,
+}
+
+impl SceneArguments {
+    /// Reads and checks the scene.
+    pub fn load(&self) -> Result<Loaded, Error> {
+        read::load(&self.scene, &self.sets)
+    }
+}
+
+/// `moorline pack`.
+#[derive(Debug, Args)]
+pub struct PackArguments {
+    /// Scene file; without one, the built-in case of Lindahl & Sjöberg
+    pub scene: Option<PathBuf>,
+    /// The FMU to write
+    #[arg(short, long, value_name = "FILE.fmu")]
+    pub output: PathBuf,
+    /// Value to put into the scene before it is checked; repeatable
+    #[arg(long = "set", value_name = "PLACE=VALUE")]
+    pub sets: Vec<String>,
+}
+
+/// `moorline convert`.
+#[derive(Debug, Args)]
+pub struct ConvertArguments {
+    /// JSON scene or CABLE file
+    pub input: PathBuf,
+    /// CABLE file or JSON scene
+    pub output: PathBuf,
+}
+
+/// Why a command ended without doing its work.
+#[derive(Debug)]
+pub enum Stop {
+    /// The calculation or a file failed.
+    Failed(Error),
+    /// The command line asks for what this version does not offer.
+    Usage(String),
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Stop {
+        Stop::Failed(error)
+    }
+}
+
+/// Runs the command line and turns its outcome into the exit code.
+pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(answer) => return console::usage(&answer),
+    };
+    let outcome = match arguments.command {
+        None => run::run(&RunArguments { scene: None, options: arguments.run }),
+        Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Statics(arguments)) => statics::statics(&arguments),
+        Some(Command::Check(arguments)) => check::check(&arguments),
+        Some(Command::Schema) => schema::schema(),
+        Some(Command::Pack(arguments)) => pack::pack(&arguments),
+        Some(Command::Convert(arguments)) => convert::convert(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Stop::Failed(error)) => {
+            console::error(&error.to_string());
+            ExitCode::from(error.exit_code())
+        }
+        Err(Stop::Usage(message)) => {
+            console::error(&message);
+            ExitCode::from(2)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        Arguments::command().debug_assert();
+    }
+}

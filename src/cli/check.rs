@@ -1,0 +1,77 @@
+//! `moorline check`: what a run of the scene would model, leave out and cost. Nothing is solved.
+
+use crate::cli::arguments::{SceneArguments, Stop};
+use crate::cli::console::{self, on_terminal};
+use crate::report::schedule::Schedule;
+use crate::report::units::{count, sim_time, wall_time};
+use crate::scene::read::Loaded;
+use crate::scene::types::{Motion, Scene};
+use crate::solve::simulation::{Decision, Simulation};
+use std::fmt::Write;
+
+/// Wall time of one element in one Newton iteration on one core of a common machine [s]. An order of magnitude, no promise.
+const SECONDS_PER_ELEMENT_ITERATION: f64 = 4.0e-7;
+/// Newton iterations of a usual time step.
+const ITERATIONS_PER_STEP: f64 = 3.0;
+
+/// Prints the check; a bad scene has failed before this prints anything.
+pub fn check(arguments: &SceneArguments) -> Result<(), Stop> {
+    let loaded = arguments.load()?;
+    let lines: Vec<Simulation> =
+        (0..loaded.scene.lines.len()).map(|index| Simulation::new(&loaded.scene, index)).collect::<Result<_, _>>()?;
+    let mut text = header(&loaded);
+    for (line, simulation) in loaded.scene.lines.iter().zip(&lines) {
+        let _ = writeln!(text, "\nLine \"{}\": {} m", on_terminal(&line.name), line.length());
+        physics(&mut text, simulation);
+        mesh(&mut text, simulation);
+    }
+    text += &cost(&loaded.scene, lines.iter().map(Simulation::elements).sum());
+    for warning in &loaded.warnings {
+        let _ = writeln!(text, "\nwarning: {}", on_terminal(warning));
+    }
+    Ok(console::print(&text)?)
+}
+
+fn header(loaded: &Loaded) -> String {
+    let scene = &loaded.scene;
+    let motion = match &scene.motion {
+        Motion::Fixed => "fixed fairleads".to_string(),
+        Motion::Sinusoidal { period, .. } => format!("fairleads in sinusoidal motion, period {period} s"),
+        Motion::File { path } => format!("fairleads in motion after {}", on_terminal(path)),
+    };
+    let title = if scene.title.is_empty() { String::new() } else { format!("{}\n", on_terminal(&scene.title)) };
+    format!("{title}{}: a good scene; {}, {motion}\n", on_terminal(&loaded.file), count(scene.lines.len(), "line"))
+}
+
+/// What is modelled, and what is skipped and why.
+fn physics(text: &mut String, simulation: &Simulation) {
+    let decisions = simulation.decisions();
+    let width = decisions.iter().map(|decision| decision.physics.chars().count()).max().unwrap_or(0);
+    for Decision { physics, on, reason } in decisions {
+        let _ = writeln!(text, "  {} {physics:<width$}  {reason}", if *on { "on  " } else { "skip" });
+    }
+}
+
+fn mesh(text: &mut String, simulation: &Simulation) {
+    let _ = writeln!(text, "  mesh: {}", count(simulation.elements(), "element"));
+    for (from, to, elements) in simulation.mesh() {
+        let each = (to - from) / elements.max(1) as f64;
+        let _ = writeln!(text, "    s = {from:>10.3} to {to:>10.3} m: {elements:>5} of {each:.3} m");
+    }
+}
+
+/// The least work of a run: steps no longer than allowed that land on every output time.
+fn cost(scene: &Scene, elements: usize) -> String {
+    let schedule = Schedule::new(&scene.run);
+    let longest_step = scene.solver.fixed_step.unwrap_or(scene.solver.max_step);
+    let steps_per_row = (scene.run.output_step / longest_step * (1.0 - 1.0e-9)).ceil().max(1.0);
+    let steps = steps_per_row * (schedule.rows() - 1) as f64;
+    let seconds = steps * ITERATIONS_PER_STEP * elements as f64 * SECONDS_PER_ELEMENT_ITERATION;
+    format!(
+        "\nCost: {} rows to t = {} s, at least {steps:.0} steps of {}; about {} of solver time, more where the line snaps.\n",
+        schedule.rows(),
+        sim_time(scene.run.duration),
+        count(elements, "element"),
+        wall_time(seconds),
+    )
+}

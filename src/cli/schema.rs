@@ -1,0 +1,9 @@
+//! `moorline schema`: the JSON Schema of the scene.
+
+use crate::cli::{arguments::Stop, console};
+use crate::scene::read;
+
+/// Prints the schema.
+pub fn schema() -> Result<(), Stop> {
+    Ok(console::print(&format!("{:#}\n", read::schema()))?)
+}

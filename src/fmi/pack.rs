@@ -1,0 +1,297 @@
+//! A scene as an FMU: the description rendered for the scene, the libraries that lie beside the program, and the scene itself.
+//! Nothing is compiled. Beside the FMU goes the description of its port for the Open Simulation Platform.
+
+use crate::error::Error;
+use crate::fmi::resource::{SCENE_FILE, guid};
+use crate::fmi::variables::{Interface, Kind, MODEL_DESCRIPTION, Meaning};
+use crate::scene::types::{Motion, Scene};
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+/// Folder of a platform in an FMU, name of the library there, and names under which it may lie beside the program.
+const PLATFORMS: [(&str, &str, &[&str]); 3] = [
+    ("linux64", "moorline.so", &["libmoorline.so", "binaries/linux64/moorline.so"]),
+    ("win64", "moorline.dll", &["moorline.dll", "binaries/win64/moorline.dll"]),
+    ("darwin64", "moorline.dylib", &["libmoorline.dylib", "binaries/darwin64/moorline.dylib"]),
+];
+
+const DOCUMENTATION: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/documentation/index.html"));
+const LICENSE: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/documentation/licenses/license.txt"));
+const PICTURE: &[u8] = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/model.png"));
+
+/// Where the scene's variables begin in modelDescription.xml that a scene with names of its own replaces.
+const REPLACEABLE: &str = "    <!-- The line and its surroundings";
+
+/// The FMU's library for each platform, as far as there is one.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Libraries {
+    /// Platform folder (`linux64`, `win64`, `darwin64`) → file.
+    pub files: BTreeMap<&'static str, PathBuf>,
+}
+
+impl Libraries {
+    /// The libraries that lie beside the running program or, as in cargo's folders, one above it.
+    pub fn beside_program() -> Libraries {
+        let program = std::env::current_exe().unwrap_or_default();
+        let folders = program.ancestors().skip(1).take(2);
+        let mut libraries = Libraries::default();
+        for folder in folders {
+            libraries.add_from(folder);
+        }
+        libraries
+    }
+
+    /// Adds what lies in a folder and is not there yet.
+    pub fn add_from(&mut self, folder: &Path) {
+        for (platform, _, names) in PLATFORMS {
+            if let Some(file) = names.iter().map(|name| folder.join(name)).find(|file| file.is_file()) {
+                self.files.entry(platform).or_insert(file);
+            }
+        }
+    }
+}
+
+/// Writes the FMU of a checked scene to `out`, and `NAME_OspModelDescription.xml` into the same folder; returns the path of the latter.
+///
+/// `name` is the scene's: the FMU's modelName. Errors: a scene of several lines, no library, a file that cannot be written.
+pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Result<PathBuf, Error> {
+    if scene.lines.len() != 1 {
+        return Err(Error::Value {
+            file: name.to_owned(),
+            place: "lines".to_owned(),
+            value: format!("a scene of {} lines", scene.lines.len()),
+            allowed:
+                "an FMU holds one line; pack a scene with one line and load the FMU once per line, each with its own parameters"
+                    .to_owned(),
+        });
+    }
+    if libraries.files.is_empty() {
+        let names = PLATFORMS.iter().map(|(_, _, names)| names[0]).collect::<Vec<_>>().join(", ");
+        let program = std::env::current_exe().unwrap_or_default();
+        let reason =
+            format!("the FMU's library ({names}) does not lie beside the program; `cargo build --release` puts it there");
+        return Err(Error::File { path: program.display().to_string(), reason });
+    }
+    let scene = self_contained(scene);
+    let description = render(&scene, name, &timestamp());
+    let mut files: Vec<(String, Vec<u8>)> = vec![
+        ("modelDescription.xml".to_owned(), description.into_bytes()),
+        ("model.png".to_owned(), PICTURE.to_vec()),
+        ("documentation/index.html".to_owned(), DOCUMENTATION.as_bytes().to_vec()),
+        ("documentation/licenses/license.txt".to_owned(), LICENSE.as_bytes().to_vec()),
+        (format!("resources/{SCENE_FILE}"), serde_json::to_vec_pretty(&scene).map_err(|error| failure(out, &error))?),
+    ];
+    for (platform, library, _) in PLATFORMS {
+        if let Some(file) = libraries.files.get(platform) {
+            files.push((format!("binaries/{platform}/{library}"), fs::read(file).map_err(|error| failure(file, &error))?));
+        }
+    }
+    write_archive(&files, out)?;
+    let port = out.with_file_name(format!("{name}_OspModelDescription.xml"));
+    fs::write(&port, osp_description()).map_err(|error| failure(&port, &error))?;
+    Ok(port)
+}
+
+fn failure(path: &Path, error: &dyn std::error::Error) -> Error {
+    Error::File { path: path.display().to_string(), reason: error.to_string() }
+}
+
+/// Writes the archive completely or not at all: a master never finds half an FMU.
+fn write_archive(files: &[(String, Vec<u8>)], out: &Path) -> Result<(), Error> {
+    let unfinished = out.with_extension("fmu.part");
+    let fail = |error: &dyn std::error::Error| failure(out, error);
+    let mut archive = ZipWriter::new(File::create(&unfinished).map_err(|error| fail(&error))?);
+    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).unix_permissions(0o644);
+    for (name, content) in files {
+        archive.start_file(name.as_str(), options).map_err(|error| fail(&error))?;
+        archive.write_all(content).map_err(|error| fail(&error))?;
+    }
+    archive.finish().map_err(|error| fail(&error))?;
+    fs::rename(&unfinished, out).map_err(|error| fail(&error))
+}
+
+/// The scene without what lies in other files: the master moves the fairlead, so a motion from a file has no part in an FMU.
+fn self_contained(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    if let Motion::File { .. } = scene.motion {
+        scene.motion = Motion::Fixed;
+    }
+    scene
+}
+
+/// modelDescription.xml for a scene: name, GUID, date, start values and, where the scene has names of its own, its quantities.
+pub fn render(scene: &Scene, name: &str, date: &str) -> String {
+    let interface = Interface::new(scene);
+    let starts: BTreeMap<&str, f64> =
+        interface.variables().iter().map(|variable| (variable.name.as_str(), variable.start)).collect();
+    let mut text = String::with_capacity(MODEL_DESCRIPTION.len());
+    let mut start = None;
+    let mut replaced = false;
+    for line in MODEL_DESCRIPTION.lines() {
+        if line == "  </ModelVariables>" {
+            replaced = false;
+        }
+        if interface.has_scene_names() && line.starts_with(REPLACEABLE) {
+            text.push_str(&scene_variables(&interface));
+            replaced = true;
+        }
+        if replaced {
+            continue;
+        }
+        if let Some(variable) = line.trim_start().strip_prefix("<ScalarVariable ") {
+            start = attribute(variable, "name").and_then(|name| starts.get(name)).copied();
+        }
+        let line = match (line, start) {
+            (line, None) if line.starts_with("  modelName=\"") => with_attribute(line, "modelName", &escaped(name)),
+            (line, None) if line.starts_with("  guid=\"") => with_attribute(line, "guid", &guid(scene)),
+            (line, None) if line.starts_with("  generationDateAndTime=\"") => with_attribute(line, "generationDateAndTime", date),
+            (line, Some(value)) if attribute(line, "start").is_some() => with_attribute(line, "start", &value.to_string()),
+            (line, _) => line.to_owned(),
+        };
+        text.push_str(&line);
+        text.push('\n');
+    }
+    text
+}
+
+/// The quantities of a scene under its own names.
+fn scene_variables(interface: &Interface) -> String {
+    let mut text = String::from("    <!-- The quantities of the scene under its own names -->\n");
+    for variable in interface.variables() {
+        if let Meaning::Place(_) = variable.meaning {
+            let name = escaped(&variable.name);
+            let kind = if variable.kind == Kind::Real { "Real" } else { "Integer" };
+            text.push_str(&format!(
+                "    <ScalarVariable name=\"{name}\" valueReference=\"{}\" causality=\"parameter\" variability=\"fixed\" \
+                 initial=\"exact\" description=\"{name} of the scene\">\n      <{kind} min=\"{}\" max=\"{}\" start=\"{}\"/>\n    \
+                 </ScalarVariable>\n",
+                variable.reference, variable.min, variable.max, variable.start
+            ));
+        }
+    }
+    text
+}
+
+/// The value of an attribute in a line of XML.
+fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
+    let (_, rest) = line.split_once(&format!("{name}=\""))?;
+    rest.split_once('"').map(|(value, _)| value)
+}
+
+/// A line of XML with another value of an attribute.
+fn with_attribute(line: &str, name: &str, value: &str) -> String {
+    let opening = format!("{name}=\"");
+    let Some((before, rest)) = line.split_once(&opening) else { return line.to_owned() };
+    let after = rest.split_once('"').map_or("", |(_, after)| after);
+    format!("{before}{opening}{value}\"{after}")
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// The port of the fairlead: a pair of force and velocity, which one connection of a system structure joins to a vessel's.
+fn osp_description() -> String {
+    let variables = |indent: usize, stem: &str| -> String {
+        ["x", "y", "z"].map(|axis| format!("{:indent$}<Variable ref=\"{stem}.{axis}\"/>\n", "")).concat()
+    };
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <OspModelDescription xmlns=\"http://opensimulationplatform.com/MSMI/OSPModelDescription\" version=\"1.0\">\n  \
+         <VariableGroups>\n    <LinearMechanicalPort name=\"fairlead\">\n      <Force name=\"fairlead force\">\n{}      </Force>\n      \
+         <LinearVelocity name=\"fairlead velocity\">\n{}      </LinearVelocity>\n    </LinearMechanicalPort>\n    \
+         <Generic name=\"fairlead position\">\n{}    </Generic>\n  </VariableGroups>\n</OspModelDescription>\n",
+        variables(8, "force"),
+        variables(8, "fairlead.velocity"),
+        variables(6, "fairlead.position"),
+    )
+}
+
+/// Now, as XML wants it: 2026-11-22T14:05:00Z.
+fn timestamp() -> String {
+    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |elapsed| elapsed.as_secs());
+    let (mut year, mut day) = (1970, seconds / 86400);
+    let days_of = |year: u64| if year % 4 == 0 && (year % 100 != 0 || year % 400 == 0) { 366 } else { 365 };
+    while day >= days_of(year) {
+        day -= days_of(year);
+        year += 1;
+    }
+    let mut month = 0;
+    let lengths = [31, days_of(year) - 337, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+    while let Some(length) = lengths.get(month).filter(|length| day >= **length) {
+        day -= length;
+        month += 1;
+    }
+    let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
+    format!("{year}-{:02}-{:02}T{hour:02}:{minute:02}:{second:02}Z", month + 1, day + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn built_in() -> Scene {
+        let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/lindahl-sjoberg.json"));
+        serde_json::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn packing_the_built_in_scene_gives_the_description_back_byte_for_byte() {
+        let scene = built_in();
+        let packed = render(&scene, "moorline", "2026-01-01T00:00:00Z");
+        assert_eq!(packed.replace(&guid(&scene), "{00000000-0000-0000-0000-000000000000}"), MODEL_DESCRIPTION);
+    }
+
+    #[test]
+    fn another_scene_brings_its_name_and_start_values() {
+        let mut scene = built_in();
+        scene.lines[0].sections[0].length = 1250.0;
+        scene.lines[0].sections[0].elements = Some(40);
+        scene.lines[0].fairlead = [1.5, 0.0, -3.25];
+        let text = render(&scene, "bow <1>", "2026-01-01T00:00:00Z");
+        for words in ["modelName=\"bow &lt;1&gt;\"", "start=\"1250\"", "start=\"40\"", "start=\"1.5\"", "start=\"-3.25\""] {
+            assert!(text.contains(words), "{words} is missing");
+        }
+        assert!(!text.contains("start=\"1200\"") && !text.contains(&guid(&built_in())));
+    }
+
+    #[test]
+    fn a_line_of_two_sections_has_its_quantities_under_their_own_names() {
+        let mut scene = built_in();
+        let section = scene.lines[0].sections[0].clone();
+        scene.lines[0].sections.push(section);
+        let text = render(&scene, "two", "2026-01-01T00:00:00Z");
+        for name in
+            ["environment.depth", "line_types.chain.ea", "lines[0].sections[1].length", "lines[0].anchor[2]", "solver.scheme"]
+        {
+            assert!(text.contains(&format!("name=\"{name}\"")), "{name} is missing");
+        }
+        assert!(!text.contains("line.length\"") && !text.contains("lines[0].fairlead"));
+        assert!(text.ends_with("</fmiModelDescription>\n") && text.contains("  <ModelStructure>"));
+    }
+
+    #[test]
+    fn several_lines_are_refused_with_what_to_do() {
+        let mut scene = built_in();
+        scene.lines.push(scene.lines[0].clone());
+        let error = pack(&scene, "harbour", &Libraries::default(), Path::new("harbour.fmu")).unwrap_err().to_string();
+        assert!(error.contains("harbour") && error.contains("2 lines") && error.contains("once per line"), "{error}");
+    }
+
+    #[test]
+    fn without_a_library_the_message_says_where_it_must_lie() {
+        let error = pack(&built_in(), "moorline", &Libraries::default(), Path::new("moorline.fmu")).unwrap_err().to_string();
+        assert!(error.contains("libmoorline.so") && error.contains("cargo build --release"), "{error}");
+    }
+
+    #[test]
+    fn the_timestamp_is_a_date_of_this_century() {
+        let now = timestamp();
+        assert!(now.len() == 20 && now.starts_with("20") && now.ends_with('Z'), "{now}");
+    }
+}

@@ -1,0 +1,259 @@
+//! The FMU state: all that an instance is at one moment, as plain data and as bytes.
+//!
+//! Bytes, little-endian: magic (8), version (4), fingerprint of scene and interface (16), length of what follows (8), the state,
+//! checksum over all before it (16). Text of the instance's log and other handed-out states are not part of it.
+
+use crate::fmi::input_path::{CAPACITY, InputPath, Inputs, Sample};
+use crate::fmi::instance::{Experiment, Phase, StepStatus};
+use crate::fmi::refusal::Refusal;
+use crate::fmi::resource::fingerprint;
+use crate::solve::simulation::{LastStep, Outputs};
+use crate::solve::snapshot::Snapshot;
+use nalgebra::Vector3;
+
+const MAGIC: &[u8; 8] = b"MOORLINE";
+const VERSION: u32 = 1;
+const HEADER: usize = 8 + 4 + 16 + 8;
+const CHECKSUM: usize = 16;
+
+/// All that an instance is, but for the line itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moment {
+    /// Where in the life of an instance.
+    pub phase: Phase,
+    /// What the master said of the experiment.
+    pub experiment: Experiment,
+    /// The communication point reached [s].
+    pub clock: f64,
+    /// Length of the last step, or of the default one before the first [s].
+    pub last_step_size: f64,
+    /// How the last step ended.
+    pub step_status: StepStatus,
+    /// Values of the parameters, by slot.
+    pub parameters: Vec<f64>,
+    /// Position at which the line was put in equilibrium [m]; with the parameters it makes the line what it is.
+    pub origin: [f64; 3],
+    /// Whether the line is in equilibrium for these parameters at this position.
+    pub settled: bool,
+    /// The inputs as last set.
+    pub inputs: Inputs,
+    /// Where the fairlead's path stands.
+    pub path: InputPath,
+    /// Outputs of the last step.
+    pub outputs: Outputs,
+    /// How the solver did in the last step.
+    pub last: LastStep,
+}
+
+/// A moment with the state of the line, if there is a line at that moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// The instance.
+    pub moment: Moment,
+    /// The line.
+    pub line: Option<Snapshot>,
+}
+
+impl State {
+    /// The state as bytes that only an instance with the same fingerprint reads.
+    pub fn to_bytes(&self, scene: u128) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        bytes.extend_from_slice(MAGIC);
+        bytes.extend_from_slice(&VERSION.to_le_bytes());
+        bytes.extend_from_slice(&scene.to_le_bytes());
+        bytes.extend_from_slice(&[0; 8]);
+        let mut writer = Writer(bytes);
+        self.moment.write(&mut writer);
+        let mut bytes = writer.0;
+        bytes.push(u8::from(self.line.is_some()));
+        if let Some(line) = &self.line {
+            line.to_bytes(&mut bytes);
+        }
+        let length = (bytes.len() - HEADER) as u64;
+        bytes[HEADER - 8..HEADER].copy_from_slice(&length.to_le_bytes());
+        let checksum = fingerprint(&bytes);
+        bytes.extend_from_slice(&checksum.to_le_bytes());
+        bytes
+    }
+
+    /// Reads bytes that `to_bytes` wrote; anything else, damaged by as little as a bit, is refused.
+    pub fn from_bytes(bytes: &[u8], scene: u128, parameters: usize) -> Result<State, Refusal> {
+        let refuse = |reason| Err(Refusal::Serialized(reason));
+        if !bytes.starts_with(MAGIC) {
+            return refuse("it was not written by moorline");
+        }
+        let Some((body, checksum)) = bytes.split_last_chunk::<CHECKSUM>().filter(|(body, _)| body.len() >= HEADER) else {
+            return refuse("it is cut off");
+        };
+        let mut reader = Reader(&body[MAGIC.len()..]);
+        if reader.array::<4>().map(u32::from_le_bytes) != Some(VERSION) {
+            return refuse("it was written by another version of moorline");
+        }
+        let written_for = reader.array::<16>().map(u128::from_le_bytes);
+        if reader.count() != Some(body.len() - HEADER) {
+            return refuse("it is cut off, or longer than it says");
+        }
+        if fingerprint(body) != u128::from_le_bytes(*checksum) {
+            return refuse("its checksum is wrong: it was damaged");
+        }
+        if written_for != Some(scene) {
+            return refuse("it belongs to an FMU of another scene or interface");
+        }
+        Self::read(&mut reader, parameters).map_or_else(|| refuse("its content makes no sense"), Ok)
+    }
+
+    fn read(reader: &mut Reader<'_>, parameters: usize) -> Option<State> {
+        let moment = Moment::read(reader)?;
+        let line = if reader.flag()? { Some(Snapshot::from_bytes(reader.0)?) } else { None };
+        (moment.parameters.len() == parameters).then_some(State { moment, line })
+    }
+}
+
+impl Moment {
+    fn write(&self, writer: &mut Writer) {
+        writer.count(self.phase.number());
+        writer.count(self.step_status.number());
+        writer.real(self.experiment.start);
+        writer.option(self.experiment.stop);
+        writer.option(self.experiment.tolerance);
+        writer.real(self.clock);
+        writer.real(self.last_step_size);
+        writer.count(self.parameters.len());
+        self.parameters.iter().for_each(|value| writer.real(*value));
+        writer.triple(self.origin);
+        writer.flag(self.settled);
+        self.inputs.values.iter().for_each(|value| writer.triple(*value));
+        self.inputs.derivatives.iter().flatten().flatten().for_each(|value| writer.option(*value));
+        writer.triple(self.path.position);
+        writer.triple(self.path.velocity);
+        writer.flag(self.path.velocity_given);
+        writer.count(self.path.samples.len());
+        for sample in &self.path.samples {
+            writer.real(sample.time);
+            writer.triple(sample.position);
+            writer.triple(sample.velocity);
+        }
+        let o = &self.outputs;
+        writer.real(o.time);
+        [o.fairlead, o.force, o.anchor_force].into_iter().for_each(|vector| writer.triple(vector.into()));
+        let scalars = [o.tension, o.anchor_tension, o.tension_max, o.declination, o.azimuth, o.grounded_length, o.work];
+        scalars.into_iter().for_each(|value| writer.real(value));
+        writer.count(self.last.substeps);
+        writer.count(self.last.newton_iterations);
+        writer.real(self.last.error_estimate);
+    }
+
+    fn read(reader: &mut Reader<'_>) -> Option<Moment> {
+        let phase = Phase::from_number(reader.count()?)?;
+        let step_status = StepStatus::from_number(reader.count()?)?;
+        let experiment = Experiment { start: reader.real()?, stop: reader.option()?, tolerance: reader.option()? };
+        let (clock, last_step_size) = (reader.real()?, reader.real()?);
+        let count = reader.count()?;
+        let parameters = reader.several(count, Reader::real)?;
+        let (origin, settled) = (reader.triple()?, reader.flag()?);
+        let mut inputs = Inputs { values: [reader.triple()?, reader.triple()?], ..Inputs::default() };
+        for slot in inputs.derivatives.iter_mut().flatten().flatten() {
+            *slot = reader.option()?;
+        }
+        let (position, velocity, velocity_given) = (reader.triple()?, reader.triple()?, reader.flag()?);
+        let count = reader.count().filter(|count| *count <= CAPACITY)?;
+        let sample = |reader: &mut Reader<'_>| {
+            Some(Sample { time: reader.real()?, position: reader.triple()?, velocity: reader.triple()? })
+        };
+        let path = InputPath { samples: reader.several(count, sample)?, position, velocity, velocity_given };
+        let time = reader.real()?;
+        let mut vector = || reader.triple().map(Vector3::from);
+        let (fairlead, force, anchor_force) = (vector()?, vector()?, vector()?);
+        let outputs = Outputs {
+            time,
+            fairlead,
+            force,
+            anchor_force,
+            tension: reader.real()?,
+            anchor_tension: reader.real()?,
+            tension_max: reader.real()?,
+            declination: reader.real()?,
+            azimuth: reader.real()?,
+            grounded_length: reader.real()?,
+            work: reader.real()?,
+        };
+        let last = LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
+        Some(Moment {
+            phase,
+            experiment,
+            clock,
+            last_step_size,
+            step_status,
+            parameters,
+            origin,
+            settled,
+            inputs,
+            path,
+            outputs,
+            last,
+        })
+    }
+}
+
+/// Appends values, little-endian.
+struct Writer(Vec<u8>);
+
+impl Writer {
+    fn real(&mut self, value: f64) {
+        self.0.extend_from_slice(&value.to_le_bytes());
+    }
+
+    fn count(&mut self, value: usize) {
+        self.0.extend_from_slice(&(value as u64).to_le_bytes());
+    }
+
+    fn flag(&mut self, value: bool) {
+        self.0.push(u8::from(value));
+    }
+
+    fn option(&mut self, value: Option<f64>) {
+        self.flag(value.is_some());
+        self.real(value.unwrap_or(0.0));
+    }
+
+    fn triple(&mut self, value: [f64; 3]) {
+        value.into_iter().for_each(|value| self.real(value));
+    }
+}
+
+/// Takes values off the front.
+struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn array<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (first, rest) = self.0.split_first_chunk::<N>()?;
+        self.0 = rest;
+        Some(*first)
+    }
+
+    fn real(&mut self) -> Option<f64> {
+        self.array().map(f64::from_le_bytes)
+    }
+
+    fn count(&mut self) -> Option<usize> {
+        self.array().map(u64::from_le_bytes).and_then(|value| usize::try_from(value).ok())
+    }
+
+    fn flag(&mut self) -> Option<bool> {
+        self.array::<1>().and_then(|[value]| (value <= 1).then_some(value == 1))
+    }
+
+    fn option(&mut self) -> Option<Option<f64>> {
+        let set = self.flag()?;
+        let value = self.real()?;
+        Some(set.then_some(value))
+    }
+
+    fn triple(&mut self) -> Option<[f64; 3]> {
+        Some([self.real()?, self.real()?, self.real()?])
+    }
+
+    fn several<T>(&mut self, count: usize, mut read: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
+        (0..count).map(|_| read(self)).collect()
+    }
+}

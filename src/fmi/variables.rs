@@ -1,0 +1,462 @@
+//! The variables of the FMU and what each of them means.
+//!
+//! Names, value references and limits come from `modelDescription/modelDescription.xml` through `build.rs`; the meaning stands here, in
+//! matches over every variable: parameter → field of the scene, input → component of the fairlead's motion, output → field of `Outputs`.
+
+use crate::scene::types::{Line, LineType, Scene, Scheme, Section};
+use crate::solve::simulation::{LastStep, Outputs};
+use serde_json::Value;
+
+include!(concat!(env!("OUT_DIR"), "/variables.rs"));
+
+/// The description of the interface as it stands for the built-in scene.
+pub const MODEL_DESCRIPTION: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/modelDescription.xml"));
+
+/// First value reference of the quantities that a packed scene exposes under its own names.
+const FIRST_SCENE_REFERENCE: u32 = 1000;
+
+/// One row of the generated table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Definition {
+    /// Name, such as `line.length`.
+    pub name: &'static str,
+    /// Value reference, unique over all types.
+    pub reference: u32,
+    /// What it is.
+    pub meaning: Meaning,
+    /// Its FMI type; an enumeration is an Integer.
+    pub kind: Kind,
+    /// Smallest value allowed.
+    pub min: f64,
+    /// Largest value allowed.
+    pub max: f64,
+    /// Start value in the file; 0 where there is none.
+    pub start: f64,
+}
+
+/// FMI type of a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// fmi2Real.
+    Real,
+    /// fmi2Integer; enumerations too.
+    Integer,
+}
+
+/// What a variable is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Meaning {
+    /// Set by the master at every communication point.
+    Input(Input),
+    /// Computed.
+    Output(Output),
+    /// Computed, about the solver.
+    Local(Local),
+    /// Set before or in initialization mode.
+    Parameter(Parameter),
+    /// Number `.0` of the scene's own quantities (`Interface::places`), set like a parameter.
+    Place(usize),
+}
+
+/// A variable of one FMU.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variable {
+    /// Name.
+    pub name: String,
+    /// Value reference.
+    pub reference: u32,
+    /// What it is.
+    pub meaning: Meaning,
+    /// Its FMI type.
+    pub kind: Kind,
+    /// Smallest value allowed.
+    pub min: f64,
+    /// Largest value allowed.
+    pub max: f64,
+    /// Start value; 0 where it is computed.
+    pub start: f64,
+    /// Number among the parameters, in the order of the description; for all others 0.
+    pub slot: usize,
+}
+
+/// What moves the fairlead between communication points (`input.interpolation`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Interpolation {
+    /// Extrapolates what was sent so far; recognises a master that never sets velocities.
+    #[default]
+    Auto,
+    /// As `Auto`, but takes velocities as they are given.
+    Extrapolate,
+    /// Moves with the last velocity.
+    HoldVelocity,
+    /// Interpolates one communication step late.
+    Delay,
+}
+
+/// What the parameters describe: the scene, and how inputs are interpolated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The scene.
+    pub scene: Scene,
+    /// The interpolation.
+    pub interpolation: Interpolation,
+}
+
+/// A place in the settings that a parameter reads and writes.
+enum Field<'a> {
+    Real(&'a mut f64),
+    Elements(&'a mut Option<usize>),
+    Scheme(&'a mut Scheme),
+    Interpolation(&'a mut Interpolation),
+}
+
+impl Parameter {
+    /// The field of the settings that this parameter is, and the place of that field in the scene as error messages name it.
+    /// `None`: the scene has no single line of a single section.
+    fn field(self, settings: &mut Settings) -> Option<(Field<'_>, &'static str)> {
+        use Field::{Elements, Interpolation, Real};
+        let Settings { scene, interpolation } = settings;
+        Some(match self {
+            Parameter::SolverScheme => (Field::Scheme(&mut scene.solver.scheme), "solver.scheme"),
+            Parameter::SolverTolerance => (Real(&mut scene.solver.tolerance), "solver.tolerance"),
+            Parameter::SolverMaxStep => (Real(&mut scene.solver.max_step), "solver.max_step"),
+            Parameter::InputInterpolation => (Interpolation(interpolation), "input.interpolation"),
+            Parameter::LineLength => (Real(&mut section(scene)?.length), "length"),
+            Parameter::LineElements => (Elements(&mut section(scene)?.elements), "elements"),
+            Parameter::LineEa => (Real(&mut line_type(scene)?.ea), "ea"),
+            Parameter::LineEi => (Real(&mut line_type(scene)?.ei), "ei"),
+            Parameter::LineMass => (Real(&mut line_type(scene)?.mass), "mass"),
+            Parameter::LineSubmergedWeight => (Real(line_type(scene)?.submerged_weight.get_or_insert(0.0)), "submerged_weight"),
+            Parameter::LineDiameter => (Real(&mut line_type(scene)?.diameter), "diameter"),
+            Parameter::LineDragNormal => (Real(&mut line_type(scene)?.drag.normal), "drag.normal"),
+            Parameter::LineDragTangential => (Real(&mut line_type(scene)?.drag.tangential), "drag.tangential"),
+            Parameter::LineAddedMassNormal => (Real(&mut line_type(scene)?.added_mass.normal), "added_mass.normal"),
+            Parameter::LineAddedMassTangential => (Real(&mut line_type(scene)?.added_mass.tangential), "added_mass.tangential"),
+            Parameter::LineDamping => (Real(&mut line_type(scene)?.damping), "damping"),
+            Parameter::AnchorPositionX => (Real(&mut line(scene)?.anchor[0]), "anchor"),
+            Parameter::AnchorPositionY => (Real(&mut line(scene)?.anchor[1]), "anchor"),
+            Parameter::AnchorPositionZ => (Real(&mut line(scene)?.anchor[2]), "anchor"),
+            Parameter::WaterDepth => (Real(&mut scene.environment.depth), "environment.depth"),
+            Parameter::WaterDensity => (Real(&mut scene.environment.water_density), "environment.water_density"),
+            Parameter::SeabedStiffness => {
+                (Real(scene.environment.seabed.stiffness.get_or_insert(0.0)), "environment.seabed.stiffness")
+            }
+            Parameter::SeabedDamping => (Real(&mut scene.environment.seabed.damping), "environment.seabed.damping"),
+            Parameter::SeabedFriction => (Real(&mut scene.environment.seabed.friction), "environment.seabed.friction"),
+        })
+    }
+}
+
+fn line(scene: &mut Scene) -> Option<&mut Line> {
+    scene.lines.first_mut()
+}
+
+fn section(scene: &mut Scene) -> Option<&mut Section> {
+    line(scene)?.sections.first_mut()
+}
+
+fn line_type(scene: &mut Scene) -> Option<&mut LineType> {
+    let name = &scene.lines.first()?.sections.first()?.line_type;
+    scene.line_types.get_mut(name)
+}
+
+impl Field<'_> {
+    fn read(&self) -> f64 {
+        match self {
+            Field::Real(value) => **value,
+            Field::Elements(elements) => elements.unwrap_or(0) as f64,
+            Field::Scheme(scheme) => match scheme {
+                Scheme::AdamsMoulton => 1.0,
+                Scheme::Esdirk3 => 2.0,
+                Scheme::GeneralizedAlpha => 3.0,
+                Scheme::Cable1994 => 4.0,
+            },
+            Field::Interpolation(interpolation) => match interpolation {
+                Interpolation::Auto => 1.0,
+                Interpolation::Extrapolate => 2.0,
+                Interpolation::HoldVelocity => 3.0,
+                Interpolation::Delay => 4.0,
+            },
+        }
+    }
+
+    /// Writes a value that the limits of the description allow.
+    fn write(self, value: f64) {
+        match self {
+            Field::Real(field) => *field = value,
+            Field::Elements(elements) => *elements = if value >= 1.0 { Some(value as usize) } else { None },
+            Field::Scheme(scheme) => {
+                *scheme = match value as u8 {
+                    2 => Scheme::Esdirk3,
+                    3 => Scheme::GeneralizedAlpha,
+                    4 => Scheme::Cable1994,
+                    _ => Scheme::AdamsMoulton,
+                }
+            }
+            Field::Interpolation(interpolation) => {
+                *interpolation = match value as u8 {
+                    2 => Interpolation::Extrapolate,
+                    3 => Interpolation::HoldVelocity,
+                    4 => Interpolation::Delay,
+                    _ => Interpolation::Auto,
+                }
+            }
+        }
+    }
+}
+
+/// Which component of the fairlead's motion an input is: 0 position, 1 velocity; and the axis.
+impl Input {
+    /// (order of the time derivative, axis).
+    pub fn component(self) -> (usize, usize) {
+        match self {
+            Input::FairleadPositionX => (0, 0),
+            Input::FairleadPositionY => (0, 1),
+            Input::FairleadPositionZ => (0, 2),
+            Input::FairleadVelocityX => (1, 0),
+            Input::FairleadVelocityY => (1, 1),
+            Input::FairleadVelocityZ => (1, 2),
+        }
+    }
+}
+
+impl Output {
+    /// The field of `Outputs` that this output is; of their rates and derivatives alike.
+    pub fn of(self, outputs: &Outputs) -> f64 {
+        match self {
+            Output::Tension => outputs.tension,
+            Output::ForceX => outputs.force.x,
+            Output::ForceY => outputs.force.y,
+            Output::ForceZ => outputs.force.z,
+            Output::AnchorTension => outputs.anchor_tension,
+            Output::AnchorForceX => outputs.anchor_force.x,
+            Output::AnchorForceY => outputs.anchor_force.y,
+            Output::AnchorForceZ => outputs.anchor_force.z,
+            Output::TensionMax => outputs.tension_max,
+            Output::Declination => outputs.declination,
+            Output::Azimuth => outputs.azimuth,
+            Output::GroundedLength => outputs.grounded_length,
+            Output::Work => outputs.work,
+        }
+    }
+}
+
+impl Local {
+    /// The field of `LastStep` that this variable is.
+    pub fn of(self, last: &LastStep) -> f64 {
+        match self {
+            Local::SolverSubsteps => last.substeps as f64,
+            Local::SolverNewtonIterations => last.newton_iterations as f64,
+            Local::SolverErrorEstimate => last.error_estimate,
+        }
+    }
+}
+
+/// The variables of the FMU of one scene.
+#[derive(Debug, Clone)]
+pub struct Interface {
+    /// The scene with its weights and seabed stiffness made explicit where they are parameters.
+    settings: Settings,
+    /// All variables, by rising value reference.
+    variables: Vec<Variable>,
+    /// JSON pointers of the quantities exposed under the scene's own names.
+    places: Vec<String>,
+    /// Number of parameters.
+    parameters: usize,
+}
+
+impl Interface {
+    /// The interface of a scene with one line. A line of one section without attachments, in still water, has the parameters
+    /// `line.…`, `anchor.…`, `water.…`, `seabed.…`; any other exposes its quantities under the scene's names.
+    pub fn new(scene: &Scene) -> Interface {
+        let scene_names = uses_scene_names(scene);
+        let mut settings = Settings { scene: scene.clone(), interpolation: Interpolation::default() };
+        if !scene_names {
+            make_explicit(&mut settings.scene);
+        }
+        let mut interface = Interface { settings, variables: Vec::new(), places: Vec::new(), parameters: 0 };
+        for definition in DEFINITIONS {
+            interface.add_definition(definition, scene_names);
+        }
+        if scene_names {
+            interface.add_places();
+        }
+        interface
+    }
+
+    fn add_definition(&mut self, definition: &Definition, scene_names: bool) {
+        let mut start = definition.start;
+        let mut slot = 0;
+        match definition.meaning {
+            Meaning::Parameter(parameter) => {
+                if scene_names && parameter.belongs_to_single_section() {
+                    return;
+                }
+                if let Some((field, _)) = parameter.field(&mut self.settings) {
+                    start = field.read();
+                }
+                slot = self.parameters;
+                self.parameters += 1;
+            }
+            Meaning::Input(input) => {
+                if let ((0, axis), Some(line)) = (input.component(), self.settings.scene.lines.first()) {
+                    start = line.fairlead[axis];
+                }
+            }
+            Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => {}
+        }
+        let Definition { name, reference, meaning, kind, min, max, .. } = *definition;
+        self.variables.push(Variable { name: name.to_owned(), reference, meaning, kind, min, max, start, slot });
+    }
+
+    /// Every number of the scene but those that have a variable already (fairlead, solver) and those that only a run uses.
+    fn add_places(&mut self) {
+        let Ok(scene) = serde_json::to_value(&self.settings.scene) else { return };
+        for part in ["environment", "line_types", "lines"] {
+            if let Some(value) = scene.get(part) {
+                self.add_numbers(value, part.to_owned(), format!("/{part}"));
+            }
+        }
+    }
+
+    fn add_numbers(&mut self, value: &Value, name: String, pointer: String) {
+        match value {
+            Value::Number(number) => {
+                let kind = if number.is_f64() { Kind::Real } else { Kind::Integer };
+                let reference = FIRST_SCENE_REFERENCE + self.places.len() as u32;
+                let meaning = Meaning::Place(self.places.len());
+                let (min, max) = if kind == Kind::Real { (-1e15, 1e15) } else { (0.0, i32::MAX as f64) };
+                let start = number.as_f64().unwrap_or(0.0);
+                self.variables.push(Variable { name, reference, meaning, kind, min, max, start, slot: self.parameters });
+                self.parameters += 1;
+                self.places.push(pointer);
+            }
+            Value::Array(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    self.add_numbers(item, format!("{name}[{index}]"), format!("{pointer}/{index}"));
+                }
+            }
+            Value::Object(entries) => {
+                for (key, item) in entries.iter().filter(|(key, _)| *key != "fairlead") {
+                    let token = key.replace('~', "~0").replace('/', "~1");
+                    self.add_numbers(item, format!("{name}.{}", identifier(key)), format!("{pointer}/{token}"));
+                }
+            }
+            Value::Null | Value::Bool(_) | Value::String(_) => {}
+        }
+    }
+
+    /// All variables, by rising value reference.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    /// The variable of a value reference.
+    pub fn variable(&self, reference: u32) -> Option<&Variable> {
+        let index = self.variables.binary_search_by_key(&reference, |variable| variable.reference).ok()?;
+        self.variables.get(index)
+    }
+
+    /// The scene of the start values.
+    pub fn scene(&self) -> &Scene {
+        &self.settings.scene
+    }
+
+    /// Whether quantities go under the scene's own names.
+    pub fn has_scene_names(&self) -> bool {
+        !self.places.is_empty()
+    }
+
+    /// Start values of all parameters, by slot.
+    pub fn start_values(&self) -> Vec<f64> {
+        let mut values = vec![0.0; self.parameters];
+        for variable in &self.variables {
+            if let Meaning::Parameter(_) | Meaning::Place(_) = variable.meaning {
+                values[variable.slot] = variable.start;
+            }
+        }
+        values
+    }
+
+    /// The settings that values of the parameters describe, by slot. `Err` names a value that the scene cannot take.
+    pub fn settings(&self, values: &[f64]) -> Result<Settings, String> {
+        let mut settings = self.settings.clone();
+        let mut tree = Value::Null;
+        for (variable, value) in self.variables.iter().filter_map(|variable| Some((variable, *values.get(variable.slot)?))) {
+            match variable.meaning {
+                Meaning::Parameter(parameter) => {
+                    if let Some((field, _)) = parameter.field(&mut settings) {
+                        field.write(value);
+                    }
+                }
+                Meaning::Place(place) if value != variable.start => {
+                    if tree.is_null() {
+                        tree = serde_json::to_value(&settings.scene).map_err(|error| error.to_string())?;
+                    }
+                    if let Some(number) = self.places.get(place).and_then(|pointer| tree.pointer_mut(pointer)) {
+                        *number = if variable.kind == Kind::Integer { Value::from(value as u64) } else { Value::from(value) };
+                    }
+                }
+                Meaning::Place(_) | Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) => {}
+            }
+        }
+        if !tree.is_null() {
+            let solver = settings.scene.solver.clone();
+            settings.scene = serde_json::from_value(tree).map_err(|error| error.to_string())?;
+            settings.scene.solver = solver;
+        }
+        Ok(settings)
+    }
+
+    /// The variable that a place of the scene (as in `Error::Value`) speaks of; the place itself where none does.
+    pub fn variable_at(&self, place: &str) -> String {
+        let mut settings = self.settings.clone();
+        let speaks_of = |end: &str| place == end || place.ends_with(&format!(".{end}"));
+        if speaks_of("fairlead") {
+            return "fairlead.position".to_owned();
+        }
+        let named = self.variables.iter().find(|variable| match variable.meaning {
+            Meaning::Parameter(parameter) => parameter.field(&mut settings).is_some_and(|(_, end)| speaks_of(end)),
+            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => false,
+        });
+        let name = named.map_or(place, |variable| variable.name.as_str());
+        name.strip_suffix(".x").unwrap_or(name).to_owned()
+    }
+}
+
+impl Parameter {
+    /// Whether the parameter speaks of *the* line, which a scene of several sections does not have.
+    fn belongs_to_single_section(self) -> bool {
+        !matches!(
+            self,
+            Parameter::SolverScheme | Parameter::SolverTolerance | Parameter::SolverMaxStep | Parameter::InputInterpolation
+        )
+    }
+}
+
+/// Whether a scene's quantities go under its own names: several sections, attachments, waves or current.
+fn uses_scene_names(scene: &Scene) -> bool {
+    let plain = scene.lines.iter().all(|line| line.sections.len() == 1 && line.attachments.is_empty());
+    !plain || scene.environment.waves.is_some() || !scene.environment.current.is_empty()
+}
+
+/// Writes down what the scene leaves to defaults that depend on other quantities, so that every parameter has a value of its own.
+fn make_explicit(scene: &mut Scene) {
+    let (density, gravity) = (scene.environment.water_density, scene.environment.gravity);
+    let Some(line_type) = line_type(scene) else { return };
+    let weight = line_type.weight_in_water(density, gravity);
+    line_type.submerged_weight = Some(weight);
+    line_type.buoyancy = None;
+    let sinking = if weight > 0.0 { weight } else { line_type.mass * gravity };
+    let stiffness = sinking / line_type.diameter;
+    scene.environment.seabed.stiffness.get_or_insert(stiffness);
+}
+
+/// A key of the scene as a part of a structured FMI name: as it is, or quoted where it is no identifier.
+fn identifier(key: &str) -> String {
+    let plain = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && !key.starts_with(|c: char| c.is_ascii_digit());
+    if plain && !key.is_empty() {
+        return key.to_owned();
+    }
+    format!("'{}'", key.replace('\\', "\\\\").replace('\'', "\\'"))
+}

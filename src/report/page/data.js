@@ -1,0 +1,69 @@
+// What the run left in the page, decoded: numbers are stored as integers of a quantum q.
+const data = JSON.parse(document.getElementById("data").textContent);
+const decode = ({ q, v }) => v.map(n => (n === null ? null : n * q));
+
+const lines = data.lines.map((line, index) => ({
+  ...line,
+  color: `--line-${(index % 8) + 1}`,
+  rows: Object.fromEntries(Object.entries(line.rows).map(([name, column]) => [name, decode(column)])),
+  still: shape(line.still),
+  shapes: line.shapes.map(shape),
+}));
+
+// One state of a line: flat positions x0, y0, z0, x1, … and the tension of each node.
+function shape({ p, t }) {
+  return { p: Float64Array.from(p, n => n * data.length_quantum), t: Float64Array.from(t, n => n * data.force_quantum) };
+}
+
+// Lines whose equilibrium is known; a run that failed in statics knows some only.
+const drawn = lines.filter(line => line.still.t.length > 1);
+const moving = drawn.length > 0 && data.snapshot_times.length > 0;
+
+// The state of a line at a time, between snapshots on the straight way from one to the next.
+function stateAt(line, time) {
+  if (!moving || line.shapes.length === 0) return { ...line.still, touchdown: null };
+  const times = data.snapshot_times;
+  let j = times.findIndex(t => t >= time);
+  if (j < 0) j = times.length - 1;
+  const i = Math.max(j - 1, 0);
+  const w = i === j ? 1 : (time - times[i]) / (times[j] - times[i]);
+  const blend = (a, b) => a.map((n, k) => n + w * (b[k] - n));
+  const [a, b] = [line.touchdown[i], line.touchdown[j]];
+  return {
+    p: blend(line.shapes[i].p, line.shapes[j].p),
+    t: blend(line.shapes[i].t, line.shapes[j].t),
+    touchdown: a === null || b === null ? null : a + w * (b - a),
+  };
+}
+
+// Position on a state at an arc length.
+function pointAt(line, state, s) {
+  let j = line.s.findIndex(t => t >= s);
+  if (j < 1) j = j < 0 ? line.s.length - 1 : 1;
+  const w = (s - line.s[j - 1]) / (line.s[j] - line.s[j - 1]);
+  return [0, 1, 2].map(k => state.p[3 * j - 3 + k] + w * (state.p[3 * j + k] - state.p[3 * j - 3 + k]));
+}
+
+const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const element = id => document.getElementById(id);
+const force = n => `${(n / data.unit.newtons).toFixed(data.unit.decimals)} ${data.unit.symbol}`;
+const metres = n => `${n.toFixed(data.length_decimals)} m`;
+const seconds = n => `${+n.toFixed(3)} s`;
+
+function option(select, text, value) {
+  const item = document.createElement("option");
+  item.textContent = text;
+  item.value = value;
+  select.append(item);
+}
+
+// Colours of tension, low to high: told apart on paper, on a dark screen, and by most eyes.
+const RAMP = [[46, 90, 150], [52, 143, 167], [110, 178, 132], [224, 178, 66], [205, 70, 45]];
+function rampColor(fraction) {
+  const x = Math.min(Math.max(fraction, 0), 1) * (RAMP.length - 1);
+  const i = Math.min(Math.floor(x), RAMP.length - 2);
+  return `rgb(${RAMP[i].map((c, k) => Math.round(c + (x - i) * (RAMP[i + 1][k] - c))).join(" ")})`;
+}
+const tensionRange = drawn.flatMap(line => [line.still, ...line.shapes]).reduce(
+  ([low, high], state) => state.t.reduce(([a, b], t) => [Math.min(a, t), Math.max(b, t)], [low, high]), [Infinity, -Infinity]);
+const tensionColor = t => rampColor((t - tensionRange[0]) / (tensionRange[1] - tensionRange[0] || 1));

@@ -1,0 +1,378 @@
+//! The command as a user meets it: the program itself is started, and judged by its exit code, its words and its files.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+const BUILT_IN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/lindahl-sjoberg.json");
+const COLUMNS: &str = "time,fairlead_x,fairlead_y,fairlead_z,tension,force_x,force_y,force_z,anchor_tension,grounded_length";
+
+/// An empty directory of its own for each test.
+fn directory(test: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(test);
+    let _ = std::fs::remove_dir_all(&directory);
+    std::fs::create_dir_all(&directory).expect("a directory for the test");
+    directory
+}
+
+fn command(directory: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_moorline"));
+    command.current_dir(directory).args(arguments);
+    command
+}
+
+fn moorline(directory: &Path, arguments: &[&str]) -> Output {
+    command(directory, arguments).output().expect("the program starts")
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The command must end with this exit code and, on standard error, one message with all these words.
+fn assert_fails(output: &Output, code: i32, words: &[&str]) {
+    let message = err(output);
+    assert_eq!(output.status.code(), Some(code), "exit code; the message was: {message}");
+    assert!(message.starts_with("error: "), "no `error: ` in front: {message}");
+    assert_eq!(message.matches("error: ").count(), 1, "more than one message: {message}");
+    for word in words {
+        assert!(message.contains(word), "{word:?} is missing: {message}");
+    }
+}
+
+fn assert_done(output: &Output) {
+    assert_eq!(output.status.code(), Some(0), "{}", err(output));
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// Header and rows of a table of numbers.
+fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut reader = csv::Reader::from_path(path).expect("the table");
+    let header = reader.headers().expect("a header").iter().map(str::to_string).collect();
+    let number = |cell: &str| cell.parse().unwrap_or_else(|_| panic!("{cell:?} is no number"));
+    let rows = reader.records().map(|row| row.expect("a row as long as the header").iter().map(number).collect());
+    (header, rows.collect())
+}
+
+/// The built-in chain between three pairs of points.
+fn three_lines(directory: &Path) -> String {
+    let mut scene = json(&read(Path::new(BUILT_IN)));
+    let line = |name: &str, fairlead: [f64; 3], anchor: [f64; 3]| serde_json::json!({"name": name, "fairlead": fairlead, "anchor": anchor, "sections": [{"type": "chain", "length": 1200.0}]});
+    scene["lines"] = serde_json::json!([
+        line("bow", [10.0, 0.0, 0.0], [1190.0, 0.0, -120.0]),
+        line("port", [0.0, 10.0, 0.0], [0.0, 1180.0, -120.0]),
+        line("stern", [-10.0, 0.0, 0.0], [-1170.0, 0.0, -120.0])
+    ]);
+    let path = directory.join("three.json");
+    std::fs::write(&path, scene.to_string()).expect("a scene");
+    path.display().to_string()
+}
+
+#[test]
+fn help_names_every_command_and_the_exit_codes() {
+    let output = moorline(&directory("help"), &["--help"]);
+    assert_done(&output);
+    for word in ["run", "statics", "check", "schema", "pack", "convert", "Exit codes", "3 no convergence"] {
+        assert!(out(&output).contains(word), "{word} is missing: {}", out(&output));
+    }
+}
+
+#[test]
+fn mistakes_on_the_command_line_are_bad_input() {
+    let here = directory("mistakes");
+    assert_fails(&moorline(&here, &["statcs"]), 2, &["unrecognized subcommand", "statcs"]);
+    assert_fails(&moorline(&here, &["statics"]), 2, &["<SCENE>"]);
+    assert_fails(&moorline(&here, &["run", "--quite"]), 2, &["--quite", "--quiet"]);
+    assert_fails(&moorline(&here, &["pack"]), 2, &["--output"]);
+}
+
+#[test]
+fn commands_to_come_say_so() {
+    let here = directory("later");
+    assert_fails(&moorline(&here, &["pack", "-o", "line.fmu"]), 2, &["moorline pack", "later version"]);
+    assert_fails(&moorline(&here, &["convert", "a.json", "a.dat"]), 2, &["moorline convert", "later version"]);
+    assert!(!here.join("line.fmu").exists());
+}
+
+#[test]
+fn schema_is_a_json_schema_of_the_scene() {
+    let output = moorline(&directory("schema"), &["schema"]);
+    assert_done(&output);
+    let schema = json(&out(&output));
+    for key in ["environment", "line_types", "lines", "motion", "run", "solver"] {
+        assert!(schema["properties"][key].is_object(), "{key} is missing");
+    }
+}
+
+#[test]
+fn a_scene_that_is_not_there_is_named() {
+    let here = directory("missing");
+    for command in ["run", "statics", "check"] {
+        assert_fails(&moorline(&here, &[command, "harbour.json"]), 2, &["harbour.json"]);
+    }
+    assert!(!here.join("out").exists(), "nothing is written for a scene that cannot be read");
+}
+
+#[test]
+fn settings_that_make_no_scene_are_named_by_every_command() {
+    let here = directory("settings");
+    for command in ["run", "statics", "check"] {
+        let with = |set| moorline(&here, &[command, BUILT_IN, "--set", set]);
+        assert_fails(&with("environment.depht=100"), 2, &["depht"]);
+        assert_fails(&with("run.duration"), 2, &["run.duration", "="]);
+        assert_fails(&with("run.duration=-5"), 2, &["run.duration", "-5"]);
+    }
+    assert!(!here.join("out").exists(), "nothing is written for a bad scene");
+}
+
+#[test]
+fn an_output_directory_that_cannot_be_made_is_named() {
+    let here = directory("unwritable");
+    std::fs::write(here.join("file"), "not a directory").expect("a file");
+    let output = moorline(&here, &["run", BUILT_IN, "-o", "file/results", "--set", "run.duration=1"]);
+    assert_fails(&output, 2, &["results", "cannot be made", "-o DIR"]);
+}
+
+#[test]
+fn run_leaves_the_tables_of_the_contract() {
+    let here = directory("tables");
+    let output =
+        moorline(&here, &["run", BUILT_IN, "-o", "results/here", "--set", "run.duration=2", "--set", "run.output_step=0.05"]);
+    assert_done(&output);
+    let results = here.join("results/here");
+
+    let (header, rows) = table(&results.join("timeseries.csv"));
+    assert_eq!(header.join(","), COLUMNS);
+    assert_eq!(rows.len(), 41);
+    assert!(rows.iter().enumerate().all(|(row, cells)| cells[0] == (5 * row) as f64 / 100.0), "times are decimal multiples");
+
+    let nodes = read(&results.join("nodes.csv"));
+    assert!(nodes.starts_with("time,line,node,s,x,y,z,tension\n0.0,line,0,0.0,"), "{}", &nodes[..120]);
+    let summary = json(&read(&results.join("summary.json")));
+    let elements = summary["elements"].as_u64().expect("elements") as usize;
+    assert_eq!(nodes.lines().count(), 1 + 41 * (elements + 1), "41 snapshots of all nodes");
+    for words in ["static", "max", "min", "steps", "times real time", "report.html", "browser"] {
+        assert!(out(&output).contains(words), "{words} is missing: {}", out(&output));
+    }
+}
+
+#[test]
+fn summary_has_the_keys_of_the_contract_and_the_statistics_of_the_rows() {
+    let here = directory("summary");
+    assert_done(&moorline(&here, &["run", BUILT_IN, "--set", "run.duration=20"]));
+    let summary = json(&read(&here.join("out/summary.json")));
+    for key in ["elements", "steps", "rejected_steps", "newton_iterations", "factorisations", "element_iterations"] {
+        assert!(summary[key].is_u64(), "{key}: {}", summary[key]);
+    }
+    assert_eq!(summary["scheme"], "adams-moulton");
+    assert!(summary["steps"].as_u64() >= Some(200), "steps land on the output times");
+    for key in ["statics_seconds", "solver_seconds"] {
+        assert!(summary[key].as_f64() > Some(0.0), "{key}: {}", summary[key]);
+    }
+    assert_eq!(summary["warnings"], serde_json::json!([]));
+    assert_eq!(summary["completed"], true);
+    assert_eq!(summary["tension"], summary["lines"][0]["tension"]);
+    assert_eq!(summary["lines"][0]["name"], "line");
+
+    let (header, rows) = table(&here.join("out/timeseries.csv"));
+    let column = header.iter().position(|name| name == "tension").expect("tension");
+    let tension: Vec<f64> = rows.iter().map(|row| row[column]).collect();
+    let number = tension.len() as f64;
+    let mean = tension.iter().sum::<f64>() / number;
+    let std = (tension.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / number).sqrt();
+    let max = tension.iter().copied().fold(f64::MIN, f64::max);
+    let min = tension.iter().copied().fold(f64::MAX, f64::min);
+    for (key, expected) in [("initial", tension[0]), ("max", max), ("min", min), ("mean", mean), ("std", std)] {
+        let found = summary["tension"][key].as_f64().unwrap_or_else(|| panic!("{key}"));
+        assert!((found - expected).abs() <= 1.0e-9 * max, "{key}: {found}, the rows give {expected}");
+    }
+    for (time, value) in [("max_time", max), ("min_time", min)] {
+        let time = summary["tension"][time].as_f64().unwrap_or_else(|| panic!("{time}"));
+        assert!(rows.iter().any(|row| row[0] == time && row[column] == value), "no row at t = {time} with {value}");
+    }
+}
+
+#[test]
+fn a_rerun_gives_the_same_rows() {
+    let here = directory("rerun");
+    for out in ["a", "b"] {
+        assert_done(&moorline(&here, &["run", BUILT_IN, "-o", out, "--set", "run.duration=5"]));
+    }
+    for file in ["timeseries.csv", "nodes.csv"] {
+        assert_eq!(read(&here.join("a").join(file)), read(&here.join("b").join(file)), "{file}");
+    }
+}
+
+#[test]
+fn several_lines_stand_side_by_side_under_their_names() {
+    let here = directory("several");
+    let scene = three_lines(&here);
+    let output = moorline(&here, &["run", &scene, "--set", "run.duration=1"]);
+    assert_done(&output);
+    let (header, rows) = table(&here.join("out/timeseries.csv"));
+    let columns: Vec<&str> = COLUMNS.split(',').skip(1).collect();
+    let expected: Vec<String> =
+        ["bow", "port", "stern"].iter().flat_map(|line| columns.iter().map(move |column| format!("{line}.{column}"))).collect();
+    assert_eq!(header[0], "time");
+    assert_eq!(header[1..], expected);
+    assert_eq!(rows.len(), 11);
+
+    let summary = json(&read(&here.join("out/summary.json")));
+    assert!(summary.get("tension").is_none(), "of several lines none is the tension");
+    let lines = summary["lines"].as_array().expect("lines");
+    assert_eq!(lines.iter().map(|line| &line["name"]).collect::<Vec<_>>(), ["bow", "port", "stern"]);
+    let sum: u64 = lines.iter().map(|line| line["steps"].as_u64().expect("steps")).sum();
+    assert_eq!(summary["steps"].as_u64(), Some(sum));
+    assert_eq!(lines[1]["tension"]["initial"].as_f64(), Some(rows[0][1 + 9 + 3]), "port.tension");
+    assert!(out(&output).contains("stern"));
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let here = directory("quiet");
+    let output = moorline(&here, &["--quiet", "--set", "run.duration=1"]);
+    assert_done(&output);
+    assert_eq!((out(&output), err(&output)), (String::new(), String::new()));
+    assert!(here.join("out/summary.json").exists());
+}
+
+#[test]
+fn bare_moorline_runs_the_built_in_case_and_leaves_a_page_that_asks_nobody() {
+    let here = directory("bare");
+    assert_done(&moorline(&here, &[]));
+    let (_, rows) = table(&here.join("out/timeseries.csv"));
+    assert_eq!(rows.len(), 1201);
+    assert_eq!(rows[1200][0], 120.0);
+    let page = read(&here.join("out/report.html"));
+    assert!(page.contains("Lindahl &amp; Sjöberg (1983) as run by Ma &amp; Webster (1994)"));
+    for address in ["http://", "https://", "src=", "@import", "url("] {
+        assert!(!page.contains(address), "{address} in the page");
+    }
+    assert!(page.len() < 3_000_000, "{} bytes", page.len());
+}
+
+#[test]
+fn a_run_that_fails_half_way_leaves_what_it_had() {
+    let here = directory("fails");
+    // Within the first second the fairlead is torn further away than there is water on earth, in steps that must not be refined.
+    let motion = r#"motion={"kind": "sinusoidal", "period": 40.0, "sine": [1.0e9, 0.0, 0.0], "ramp": 10.0}"#;
+    let output = moorline(&here, &["run", BUILT_IN, "--quiet", "--set", motion, "--set", "solver.fixed_step=0.1"]);
+    assert_fails(&output, 3, &["line \"line\"", "t = ", "s = "]);
+    let (_, rows) = table(&here.join("out/timeseries.csv"));
+    assert!(!rows.is_empty() && rows.len() < 1201, "{} rows", rows.len());
+    let summary = json(&read(&here.join("out/summary.json")));
+    assert_eq!(summary["completed"], false);
+    assert!(err(&output).contains(summary["error"].as_str().expect("the error")));
+    assert_eq!(summary["end_time"].as_f64(), Some(rows[rows.len() - 1][0]));
+    assert!(read(&here.join("out/report.html")).contains("role=\"alert\""));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_complete_rows_summary_and_page() {
+    let here = directory("ctrl-c");
+    let arguments = ["run", BUILT_IN, "--set", "run.duration=1000000", "--set", "run.output_step=0.1"];
+    let run = command(&here, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
+    let rows = here.join("out/timeseries.csv");
+    let patience = std::time::Instant::now();
+    while std::fs::read_to_string(&rows).map_or(0, |text| text.lines().count()) < 20 {
+        assert!(patience.elapsed().as_secs() < 60, "no rows after a minute");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let kill = Command::new("kill").args(["-INT", &run.id().to_string()]).status().expect("kill");
+    assert!(kill.success());
+    let output = run.wait_with_output().expect("the program ends");
+    assert_fails(&output, 130, &["stopped by the user at t = "]);
+    assert!(read(&rows).ends_with('\n'), "the last row is complete");
+    let (header, rows) = table(&rows);
+    assert!(rows.iter().all(|row| row.len() == header.len()));
+    let summary = json(&read(&here.join("out/summary.json")));
+    assert_eq!(summary["completed"], false);
+    assert_eq!(summary["rows"].as_u64(), Some(rows.len() as u64));
+    assert!(read(&here.join("out/report.html")).contains("stopped by the user"));
+}
+
+#[test]
+fn statics_prints_the_json_of_the_contract() {
+    let here = directory("statics");
+    let output = moorline(&here, &["statics", BUILT_IN, "--json"]);
+    assert_done(&output);
+    let statics = json(&out(&output));
+    assert_eq!(statics["converged"], true);
+    assert!(statics["iterations"].is_u64() && statics["residual"].is_number());
+    let line = &statics["lines"][0];
+    assert_eq!(line["name"], "line");
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
+    let vector = |value: &Value| [number(&value[0]), number(&value[1]), number(&value[2])];
+    let magnitude = |value: &Value| vector(value).iter().map(|component| component * component).sum::<f64>().sqrt();
+    for (tension, force) in [("tension", "force"), ("anchor_tension", "anchor_force")] {
+        let (tension, force) = (number(&line[tension]), magnitude(&line[force]));
+        assert!((tension - force).abs() <= 1.0e-9 * tension, "{tension} against |force| = {force}");
+    }
+    assert!(number(&line["grounded_length"]) > 0.0);
+    assert!(
+        vector(&line["force"])[0] > 0.0 && vector(&line["force"])[2] < 0.0,
+        "the line pulls the vessel down and to its anchor"
+    );
+    let nodes = line["nodes"].as_array().expect("nodes");
+    assert_eq!((number(&nodes[0]["s"]), number(&nodes[nodes.len() - 1]["s"])), (0.0, 1200.0));
+    for node in nodes {
+        assert!((magnitude(&node["tangent"]) - 1.0).abs() < 1.0e-9, "a unit vector: {}", node["tangent"]);
+        assert!(number(&node["tension"]) > 0.0 && node["position"].as_array().map(Vec::len) == Some(3));
+    }
+}
+
+#[test]
+fn run_starts_from_what_statics_prints() {
+    let here = directory("start");
+    let statics = json(&out(&moorline(&here, &["statics", BUILT_IN, "--json"])));
+    assert_done(&moorline(&here, &["run", BUILT_IN, "--set", "run.duration=0"]));
+    let (_, rows) = table(&here.join("out/timeseries.csv"));
+    assert_eq!(rows.len(), 1);
+    assert_eq!(statics["lines"][0]["tension"].as_f64(), Some(rows[0][4]));
+}
+
+#[test]
+fn statics_prints_a_table_for_people() {
+    let output = moorline(&directory("statics-table"), &["statics", BUILT_IN]);
+    assert_done(&output);
+    for words in
+        ["Static equilibrium", "Line \"line\"", "fairlead", "anchor", "touchdown at s = ", "on the bed", "[kN]", "1200.000"]
+    {
+        assert!(out(&output).contains(words), "{words} is missing: {}", out(&output));
+    }
+}
+
+#[test]
+fn check_says_what_is_on_what_is_skipped_the_mesh_and_the_cost() {
+    let here = directory("check");
+    let output = moorline(&here, &["check", BUILT_IN]);
+    assert_done(&output);
+    for words in ["good scene", "Line \"line\": 1200 m", "on   ", "skip ", "mesh: ", "Cost: 1201 rows"] {
+        assert!(out(&output).contains(words), "{words} is missing: {}", out(&output));
+    }
+    assert_eq!(std::fs::read_dir(&here).expect("the directory").count(), 0, "check writes nothing");
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let here = directory("pipe");
+    for arguments in [&["schema"][..], &["statics", BUILT_IN], &["statics", BUILT_IN, "--json"]] {
+        let mut child =
+            command(&here, arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("the program ends");
+        assert_eq!((output.status.code(), err(&output)), (Some(0), String::new()), "{arguments:?}");
+    }
+}

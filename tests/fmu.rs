@@ -1,0 +1,146 @@
+//! The FMU in the hands of masters: packed from the library of this build and driven from Python, through FMPy and through bare C calls.
+//!
+//! Each test runs one script of `tests/fmu/`. They need Python 3.9 or newer; a virtual environment with pinned packages is set up once
+//! under `target/`.
+
+use moorline::fmi::pack::{Libraries, pack};
+use moorline::scene::types::{Motion, Scene};
+use moorline::solve::motion::Path;
+use moorline::solve::simulation::Simulation;
+use std::f64::consts::TAU;
+use std::path::{Path as FilePath, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// What the scripts import.
+const PACKAGES: [&str; 4] = ["fmpy==0.3.32", "numpy<3", "libcosimpy==0.0.6", "pythonfmu==0.7.0"];
+
+/// Runs a command; its output is the message where it fails.
+fn run(command: &mut Command, purpose: &str) -> Result<(), String> {
+    let output = command.output().map_err(|error| format!("{purpose}: {command:?}: {error}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    Err(format!("{purpose}: {command:?} ended with {}\n{out}\n{err}", output.status))
+}
+
+/// The Python of a virtual environment that holds `PACKAGES`.
+fn python() -> Result<PathBuf, String> {
+    let environment = FilePath::new(env!("CARGO_TARGET_TMPDIR")).join("python");
+    let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let finished = environment.join("packages.txt");
+    if std::fs::read_to_string(&finished).is_ok_and(|packages| packages == PACKAGES.join("\n")) {
+        return Ok(python);
+    }
+    let names = ["python3", "python"];
+    let found =
+        names.iter().find(|name| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success()));
+    let Some(system) = found else {
+        return Err(
+            "the tests of the FMU need Python 3.9 or newer on the PATH, as `python3` or `python`: install it and try again"
+                .into(),
+        );
+    };
+    run(
+        Command::new(system).args(["-m", "venv"]).arg(&environment),
+        "making a virtual environment (Debian: install python3-venv)",
+    )?;
+    run(
+        Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(PACKAGES),
+        "installing the Python packages of the tests",
+    )?;
+    std::fs::write(&finished, PACKAGES.join("\n")).map_err(|error| error.to_string())?;
+    Ok(python)
+}
+
+/// The built-in scene.
+fn scene() -> Result<Scene, String> {
+    serde_json::from_str(include_str!("../examples/lindahl-sjoberg.json")).map_err(|error| error.to_string())
+}
+
+/// Tension of the solver alone on the built-in motion, at the FMU's communication points, as CSV.
+fn standalone() -> Result<String, String> {
+    let scene = scene()?;
+    let Motion::Sinusoidal { period, sine, cosine, ramp } = scene.motion else {
+        return Err("the built-in motion is sinusoidal".into());
+    };
+    let origin = scene.lines[0].fairlead.into();
+    let path =
+        Path::Sinusoidal { origin, omega: TAU / period, sine: sine.into(), cosine: cosine.into(), ramp: ramp.unwrap_or(0.0) };
+    let mut simulation = Simulation::new(&scene, 0).map_err(|error| error.to_string())?;
+    simulation.settle(origin, 0.0).map_err(|error| error.to_string())?;
+    let mut text = String::from("time,tension\n");
+    for step in 0..=1200 {
+        let time = f64::from(step) * 0.1;
+        if step > 0 {
+            simulation.advance(time, &path).map_err(|error| error.to_string())?;
+        }
+        text += &format!("{time:.1},{:?}\n", simulation.outputs().tension);
+    }
+    Ok(text)
+}
+
+/// Python and the FMU of the built-in scene.
+fn prepared() -> &'static Result<(PathBuf, PathBuf), String> {
+    static PREPARED: OnceLock<Result<(PathBuf, PathBuf), String>> = OnceLock::new();
+    PREPARED.get_or_init(|| {
+        let folder = FilePath::new(env!("CARGO_TARGET_TMPDIR")).join("fmu");
+        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+        let fmu = folder.join("moorline.fmu");
+        std::fs::write(folder.join("standalone.csv"), standalone()?).map_err(|error| error.to_string())?;
+        pack(&scene()?, "moorline", &Libraries::beside_program(), &fmu).map_err(|error| error.to_string())?;
+        Ok((python()?, fmu))
+    })
+}
+
+/// Runs a script of `tests/fmu/` on the FMU.
+fn script(name: &str) {
+    let (python, fmu) = prepared().as_ref().unwrap_or_else(|message| panic!("{message}"));
+    let file = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmu").join(name);
+    let mut command = Command::new(python);
+    command.args(["-X", "faulthandler"]).arg(file).arg(fmu).env("PYTHONDONTWRITEBYTECODE", "1");
+    if let Err(message) = run(&mut command, name) {
+        panic!("{message}");
+    }
+}
+
+#[test]
+fn fmpy_finds_nothing_to_complain_about() {
+    script("validate.py");
+}
+
+#[test]
+fn every_illegal_call_is_refused_with_a_reason() {
+    script("abuse.py");
+}
+
+#[test]
+fn a_state_goes_back_bit_for_bit_and_into_another_process() {
+    script("states.py");
+}
+
+#[test]
+fn many_instances_in_many_threads_do_not_disturb_each_other_nor_leak() {
+    script("many.py");
+}
+
+#[test]
+fn tension_follows_the_published_case_for_every_kind_of_master() {
+    script("published.py");
+}
+
+#[test]
+fn derivatives_agree_with_differences_taken_by_rollback() {
+    script("derivatives.py");
+}
+
+#[test]
+fn the_fmpy_example_runs() {
+    script("example.py");
+}
+
+#[test]
+fn a_vessel_on_two_lines_is_stable_in_libcosim() {
+    script("osp.py");
+}

@@ -1,0 +1,12 @@
+"""The example for FMPy runs, and its tension repeats itself from period to period once the start is over."""
+
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "examples"))
+from fmpy_tension import run
+
+times, tensions = run(sys.argv[1])
+assert len(times) == 1200 and abs(times[-1] - 120.0) < 1e-9
+last, before = tensions[-120:], tensions[-240:-120]
+assert max(abs(a - b) for a, b in zip(last, before)) < 0.01 * max(last), "the tension does not become periodic"

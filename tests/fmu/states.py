@@ -1,0 +1,126 @@
+"""A state brings back everything, bit for bit: after steps, after an error, in every phase, and in another process."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+from master import ERROR, OK, Fmu, Line, surge
+
+STEPS = [0.1, 0.03, 0.5, 0.01, 0.2, 0.1, 0.1, 0.34]
+
+
+def go_on(line: Line, begin: float) -> list:
+    """Steps of all sizes from a time, and every output on the way, as exact text."""
+    line.time = begin
+    seen = []
+    for step in STEPS * 3:
+        assert line.step(surge, step) == OK, line.log
+        seen.append([value.hex() for value in line.outputs()])
+    return seen
+
+
+if len(sys.argv) > 2:
+    # The other process: goes on from a file.
+    fmu = Fmu(sys.argv[1])
+    line = Line(fmu)
+    status, state = line.deserialize(pathlib.Path(sys.argv[2]).read_bytes())
+    assert status == OK, line.log
+    assert line.set_state(state) == OK, line.log
+    print(go_on(line, float.fromhex(sys.argv[3])))
+    sys.exit()
+
+fmu = Fmu(sys.argv[1])
+line = Line(fmu)
+assert line.set_real({"line.length": 1205.0, "water.density": 1025.0}) == OK
+line.start(surge)
+for _ in range(40):
+    assert line.step(surge) == OK
+begin = line.time
+status, state = line.get_state()
+assert status == OK
+data = line.serialize(state)
+
+first = go_on(line, begin)
+assert line.set_state(state) == OK
+assert go_on(line, begin) == first, "after going back the steps differ"
+
+# After an error the state is as good as ever; parameters come back with it.
+assert line.set_real({"fairlead.position.x": -1e6, "fairlead.velocity.x": -9e3}) == OK
+assert line.do_step(line.time, 0.1) != OK
+assert line.set_state(state) == OK
+assert go_on(line, begin) == first, "after an error the steps differ"
+assert line.call("fmi2Reset") == OK
+assert line.set_state(state) == OK, line.log
+assert line.get_real("line.length") == (OK, [1205.0])
+assert go_on(line, begin) == first, "after a reset the steps differ"
+status, again = line.deserialize(data)
+assert status == OK and line.set_state(again) == OK
+assert line.serialize(again) == data, "bytes change on the way"
+assert go_on(line, begin) == first, "after serialization the steps differ"
+
+# A handle that is used again holds the new state.
+assert line.set_state(state) == OK
+line.time = begin
+assert line.step(surge) == OK
+assert line.get_state(state)[0] == OK
+later = line.outputs()
+assert line.set_state(again) == OK and line.outputs() != later
+assert line.set_state(state) == OK and line.outputs() == later
+
+# Every phase comes back.
+young = Line(fmu)
+status, instantiated = young.get_state()
+assert status == OK
+young.start(surge)
+assert young.set_state(instantiated) == OK
+assert young.do_step(0.0, 0.1) == ERROR, "a state taken before initialization can step"
+assert young.setup() == OK and young.call("fmi2EnterInitializationMode") == OK
+status, initializing = young.get_state()
+assert young.call("fmi2ExitInitializationMode") == OK
+assert young.step(surge) == OK
+one = young.outputs()
+assert young.set_state(initializing) == OK and young.call("fmi2ExitInitializationMode") == OK
+young.time = 0.0
+assert young.step(surge) == OK and young.outputs() == one, "initialized twice from one state, with two results"
+assert young.call("fmi2Terminate") == OK
+status, terminated = young.get_state()
+assert status == OK and young.set_state(initializing) == OK and young.set_state(terminated) == OK
+assert young.do_step(0.1, 0.1) == ERROR, "a terminated state can step"
+
+# Reset and run again: the same.
+runs = []
+for _ in range(2):
+    rerun = line
+    assert rerun.call("fmi2Reset") == OK
+    rerun.start(surge)
+    runs.append(go_on(rerun, 0.0))
+assert runs[0] == runs[1], "a rerun after fmi2Reset differs"
+
+with tempfile.TemporaryDirectory() as folder:
+    file = pathlib.Path(folder, "state")
+    file.write_bytes(data)
+    command = [sys.executable, __file__, sys.argv[1], str(file), begin.hex()]
+    other = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert other.returncode == 0, other.stderr
+    assert other.stdout.strip() == str(first), "another process goes on differently"
+
+# The size of the step does not matter beyond the tolerance.
+results = []
+for steps in ([0.1] * 200, (STEPS * 100)):
+    assert line.call("fmi2Reset") == OK
+    line.start(surge)
+    for step in steps:
+        step = min(step, 20.0 - line.time)
+        if step < 1e-6:
+            break
+        assert line.step(surge, step) == OK, line.log
+    results.append(line.get_real("tension")[1][0])
+assert abs(results[0] - results[1]) < 1e-3 * results[0], results
+
+count = 2000
+clock = time.perf_counter()
+for _ in range(count):
+    line.set_state(state)
+print(f"{len(data)} bytes; going back takes {(time.perf_counter() - clock) / count * 1e6:.1f} us")
