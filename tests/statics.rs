@@ -13,7 +13,6 @@ use moorline::sea::current::Current;
 use moorline::solve::newton::motion;
 use moorline::solve::simulation::Simulation;
 use moorline::solve::start::{self, Bounds};
-use moorline::solve::statics;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -241,7 +240,7 @@ fn pure_bending_closes_a_rod_to_a_circle() {
     rig.place(arc(0.95 * tau));
     rig.state.u.set_slope(0, &-Vector3::x());
     // There is neither weight nor tension that the unbalanced force could be compared with, so it is compared with EI/L².
-    let balance = statics::settle(rig.line.as_ref(), &mut rig.newton, &mut rig.state);
+    let balance = rig.balance();
     assert_small("unbalanced force", balance.residual, 1e-7);
     assert_small("gap", rig.state.u.position(0).norm(), 2e-6);
     assert_close("diameter", rig.at(0.5).norm(), 1.0 / std::f64::consts::PI, 1e-4);
@@ -250,7 +249,7 @@ fn pure_bending_closes_a_rod_to_a_circle() {
     assert_close("couple on the clamp", residual.slope(last).z.abs(), tau, 3e-4);
 }
 
-/// Source: weight of what hangs below, T(s) = T₀ + w s and z(s) = s + (T₀ s + w s²/2)/EA. Cubic elements hold this exactly: measured 2e-12.
+/// Source: weight of what hangs below, T(s) = T₀ + w s and z(s) = s + (T₀ s + w s²/2)/EA. Cubic elements hold this exactly: measured 1.2e-10, where statics stops.
 #[test]
 fn vertical_line_hangs_in_its_own_weight() {
     let (length, weight, ea) = (100.0, 500.0, 1.0e7);
@@ -259,8 +258,8 @@ fn vertical_line_hangs_in_its_own_weight() {
     let mut rig = Rig::new(mesh, nothing(), Holding::none().hold(0, &[X, Y, Z]).hold(last, &[X, Y, Z]));
     // Taut: stretched by 1 %, T = EA·0.01 in the middle and ± w L/2 at the ends.
     rig.hang(Vector3::zeros(), Vector3::new(0.0, 0.0, 101.0));
-    assert_close("T top", rig.fairlead_force().norm(), 0.01 * ea + 0.5 * weight * length, 1e-11);
-    assert_close("T bottom", rig.node_forces()[0].norm(), 0.01 * ea - 0.5 * weight * length, 1e-11);
+    assert_close("T top", rig.fairlead_force().norm(), 0.01 * ea + 0.5 * weight * length, 5e-10);
+    assert_close("T bottom", rig.node_forces()[0].norm(), 0.01 * ea - 0.5 * weight * length, 5e-10);
     let exact = |s: f64| s + ((0.01 * ea - 0.5 * weight * length) * s + 0.5 * weight * s * s) / ea;
     assert_small("place at a third", rig.at(length / 3.0).z - exact(length / 3.0), 1e-8);
     // Free at the lower end: T = w s, elongation w L²/2EA.
@@ -268,7 +267,7 @@ fn vertical_line_hangs_in_its_own_weight() {
     let mut rig = Rig::new(mesh, nothing(), Holding::none().hold(last, &[X, Y, Z]));
     rig.stretch(Vector3::zeros(), Vector3::new(0.0, 0.0, length));
     rig.settle();
-    assert_close("weight", rig.fairlead_force().norm(), weight * length, 1e-11);
+    assert_close("weight", rig.fairlead_force().norm(), weight * length, 5e-10);
     assert_close("elongation", -rig.state.u.position(0).z, 0.5 * weight * length * length / ea, 1e-11);
 }
 

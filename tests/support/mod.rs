@@ -139,13 +139,16 @@ pub struct Rig {
     pub line: Box<dyn Line>,
     pub newton: Newton,
     pub state: State,
+    surroundings: Surroundings,
+    supports: Supports,
 }
 
 impl Rig {
     pub fn new(mesh: Mesh, surroundings: Surroundings, holding: Holding) -> Rig {
-        let line = physics::build(mesh, surroundings, holding.0);
+        let supports = holding.0;
+        let line = physics::build(mesh, surroundings.clone(), supports.clone());
         let (newton, state) = (Newton::new(line.as_ref()), State::new(line.mesh().nodes()));
-        Rig { line, newton, state }
+        Rig { line, newton, state, surroundings, supports }
     }
 
     pub fn last(&self) -> usize {
@@ -167,10 +170,20 @@ impl Rig {
         self.place(|s| (anchor + slope * s, slope));
     }
 
+    /// How near to equilibrium statics comes from where the line is now.
+    pub fn balance(&mut self) -> Balance {
+        let soften = |limit: f64| {
+            let mut mesh = self.line.mesh().clone();
+            mesh.sections.iter_mut().for_each(|section| section.ea = section.ea.min(limit));
+            physics::build(mesh, self.surroundings.clone(), self.supports.clone())
+        };
+        statics::settle(self.line.as_ref(), &soften, &mut self.newton, &mut self.state)
+    }
+
     /// Equilibrium from where the line is now; fails if there is none.
     #[track_caller]
     pub fn settle(&mut self) -> Balance {
-        let balance = statics::settle(self.line.as_ref(), &mut self.newton, &mut self.state);
+        let balance = self.balance();
         assert!(balance.converged(), "not in equilibrium: {balance:?}");
         balance
     }
@@ -251,7 +264,7 @@ impl Rig {
     ) -> usize {
         let line = self.line.as_ref();
         let criteria = Criteria { tolerance: 1.0e-13, length: line.mesh().length, iterations: 30 };
-        let demands = Demands { error_rate: 1.0, max_step: step, fixed_step: Some(step), criteria };
+        let demands = Demands { error: 1.0, finest_step: 0.0, max_step: step, fixed_step: Some(step), criteria };
         let mut bench = Bench { line, newton: &mut self.newton, path, criteria };
         let mut moment: Moment = controller::at_rest(line.mesh().nodes(), 0.0, step);
         moment.state = self.state.clone();
