@@ -15,7 +15,7 @@ use moorline::scene::types;
 use moorline::solve::controller::{self, Controller, Demands};
 use moorline::solve::motion::Path;
 use moorline::solve::newton::{Criteria, Newton, motion};
-use moorline::solve::scheme::{Bench, Moment};
+use moorline::solve::scheme::{Bench, Moment, Stages};
 use moorline::solve::start::{self, Bounds};
 use moorline::solve::statics::{self, Balance};
 use nalgebra::{DMatrix, SVector, Vector3};
@@ -265,14 +265,14 @@ impl Rig {
         let line = self.line.as_ref();
         let criteria = Criteria { tolerance: 1.0e-13, length: line.mesh().length, iterations: 30 };
         let demands = Demands { error: 1.0, finest_step: 0.0, max_step: step, fixed_step: Some(step), criteria };
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria };
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Solve };
         let mut moment: Moment = controller::at_rest(line.mesh().nodes(), 0.0, step);
         moment.state = self.state.clone();
         bench.prescribe(&mut moment.state, &path.at(0.0));
         bench.accelerate(&mut moment.state).expect("regular mass matrix");
         let mut controller = Controller::new(scheme, line.mesh().nodes());
         let outcome =
-            controller.advance(&mut bench, &demands, &mut moment, until, |moment| watch(moment.time, &moment.state, line));
+            controller.advance(&mut bench, &demands, &mut moment, until, |moment, _| watch(moment.time, &moment.state, line));
         if let Err(failure) = outcome {
             panic!("no step: {failure:?}");
         }
