@@ -1,8 +1,10 @@
 //! The unknowns of a line and their rates: plain numbers whose clone is the rollback.
 //!
 //! A `Field` holds six numbers per node, component by component (all x, then all y, …): position (or its rate) [m] in
-//! components 0–2 and slope dr/ds (or its rate) [-] in components 3–5. Nodes run from the anchor to the fairlead.
+//! components 0–2 and slope dr/ds (or its rate) [-] in components 3–5. Nodes run from the anchor to the fairlead. Each component
+//! is padded with zeros, and so is the end, so that elements can be read in batches without a look at where the line ends.
 
+use crate::algebra::lanes::{MOST_LANES, padded};
 use nalgebra::Vector3;
 
 /// Components per node: three of position, three of slope.
@@ -11,6 +13,7 @@ pub const COMPONENTS: usize = 6;
 /// Six numbers per node, component-major.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
+    nodes: usize,
     stride: usize,
     data: Vec<f64>,
 }
@@ -18,34 +21,51 @@ pub struct Field {
 impl Field {
     /// Zeros for `nodes` nodes.
     pub fn new(nodes: usize) -> Field {
-        Field { stride: nodes, data: vec![0.0; COMPONENTS * nodes] }
+        let stride = padded(nodes);
+        Field { nodes, stride, data: vec![0.0; COMPONENTS * stride + MOST_LANES] }
     }
 
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
+        self.nodes
+    }
+
+    /// Distance in `data` from a component to the next.
+    pub fn stride(&self) -> usize {
         self.stride
     }
 
-    /// All numbers, component-major.
+    /// All numbers, component-major, with the padding, which is zero.
     pub fn data(&self) -> &[f64] {
         &self.data
     }
 
-    /// All numbers, component-major, to change.
+    /// All numbers, component-major, to change; the padding must stay zero.
     pub fn data_mut(&mut self) -> &mut [f64] {
         &mut self.data
+    }
+
+    /// The six components, each with the numbers that follow it, so that a batch may start at any node.
+    #[inline(always)]
+    pub fn rows(&self) -> [&[f64]; COMPONENTS] {
+        std::array::from_fn(|c| &self.data[c * self.stride..][..self.stride + MOST_LANES])
+    }
+
+    /// All numbers but the padding.
+    pub fn numbers(&self) -> impl Iterator<Item = &f64> {
+        (0..COMPONENTS).flat_map(|c| self.component(c))
     }
 
     /// Component `c` of every node.
     #[inline(always)]
     pub fn component(&self, c: usize) -> &[f64] {
-        &self.data[c * self.stride..(c + 1) * self.stride]
+        &self.data[c * self.stride..c * self.stride + self.nodes]
     }
 
     /// Component `c` of every node, to change.
     #[inline(always)]
     pub fn component_mut(&mut self, c: usize) -> &mut [f64] {
-        &mut self.data[c * self.stride..(c + 1) * self.stride]
+        &mut self.data[c * self.stride..c * self.stride + self.nodes]
     }
 
     /// Components 0–2 of a node.
@@ -91,9 +111,9 @@ impl Field {
         self.data.copy_from_slice(&x.data);
     }
 
-    /// Sets all numbers.
+    /// Sets all numbers but the padding.
     pub fn fill(&mut self, value: f64) {
-        self.data.fill(value);
+        (0..COMPONENTS).for_each(|c| self.component_mut(c).fill(value));
     }
 }
 

@@ -144,7 +144,7 @@ impl Newton {
         for &(node, component) in line.fixed() {
             b.component_mut(component)[node] = 0.0;
         }
-        let stride = b.nodes();
+        let stride = b.stride();
         self.factor.solve(b.data_mut(), stride);
     }
 
