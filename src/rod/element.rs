@@ -419,24 +419,65 @@ impl PointTangent {
     }
 }
 
-/// Adds `scale` times the point tangent of element `e`, at a point where the shape is `shape` (scaled to the length), to the matrix.
-pub fn scatter(matrix: &mut BlockTridiagonal<6>, e: usize, shape: &Shape, scale: f64, point: &PointTangent) {
-    for k in 0..4 {
+/// Tangent of one element, 4×4 blocks by columns of three: [l][k] couples end value k with end value l.
+#[derive(Debug, Clone)]
+pub struct ElementTangent([[[f64; 9]; 4]; 4]);
+
+impl ElementTangent {
+    /// Zero.
+    pub fn zero() -> ElementTangent {
+        ElementTangent([[[0.0; 9]; 4]; 4])
+    }
+
+    /// Adds `scale` times the tangent at a point where the shape is `shape` (scaled to the length).
+    pub fn add(&mut self, shape: &Shape, scale: f64, point: &PointTangent) {
+        let [load, turning, axial] = [&point.load, &point.turning, &point.axial].map(entries);
         for l in 0..4 {
-            let block = point.load * (shape.value[k] * shape.value[l])
-                + point.turning * (shape.value[k] * shape.slope[l])
-                + point.axial * (shape.slope[k] * shape.slope[l])
-                + Matrix3::identity() * (point.bending * shape.curvature[k] * shape.curvature[l]);
-            let target = match (k / 2, l / 2) {
-                (0, 0) => &mut matrix.diagonal[e],
-                (1, 1) => &mut matrix.diagonal[e + 1],
-                (0, _) => &mut matrix.upper[e],
-                _ => &mut matrix.lower[e],
-            };
-            let mut view = target.fixed_view_mut::<3, 3>(3 * (k % 2), 3 * (l % 2));
-            view += block * scale;
+            let (value, slope) = (scale * shape.value[l], scale * shape.slope[l]);
+            let loads: [f64; 9] = std::array::from_fn(|i| load[i] * value + turning[i] * slope);
+            let axials: [f64; 9] = std::array::from_fn(|i| axial[i] * slope);
+            for k in 0..4 {
+                let block = &mut self.0[l][k];
+                for i in 0..9 {
+                    block[i] += loads[i] * shape.value[k] + axials[i] * shape.slope[k];
+                }
+                if point.bending != 0.0 {
+                    let bending = scale * point.bending * shape.curvature[k] * shape.curvature[l];
+                    [0, 4, 8].into_iter().for_each(|i| block[i] += bending);
+                }
+            }
         }
     }
+
+    /// Adds products[k][l] times one matrix to block (k, l).
+    pub fn add_products(&mut self, products: &[[f64; 4]; 4], matrix: &Matrix3<f64>) {
+        let matrix = entries(matrix);
+        for l in 0..4 {
+            for k in 0..4 {
+                (0..9).for_each(|i| self.0[l][k][i] += matrix[i] * products[k][l]);
+            }
+        }
+    }
+
+    /// Adds the tangent of element `e` to the matrix.
+    pub fn add_to(&self, matrix: &mut BlockTridiagonal<6>, e: usize) {
+        for l in 0..4 {
+            for k in 0..4 {
+                let target = match (k / 2, l / 2) {
+                    (0, 0) => &mut matrix.diagonal[e],
+                    (1, 1) => &mut matrix.diagonal[e + 1],
+                    (0, _) => &mut matrix.upper[e],
+                    _ => &mut matrix.lower[e],
+                };
+                let mut view = target.fixed_view_mut::<3, 3>(3 * (k % 2), 3 * (l % 2));
+                view += Matrix3::from_column_slice(&self.0[l][k]);
+            }
+        }
+    }
+}
+
+fn entries(m: &Matrix3<f64>) -> [f64; 9] {
+    std::array::from_fn(|i| m.as_slice()[i])
 }
 
 /// Adds the tangent of every element to the matrix. `geometric[3e + g]`, where given, is the tension of the geometric part.
@@ -457,6 +498,7 @@ pub fn tangent<S: Stretch, W: Water, B: Bending>(
         let (axial, coefficients) = (table.axial(e), table.coefficients(e));
         let wet = u.wet(table.get(Property::Waterline, e));
         let (mass, ei) = (table.get(Property::Mass, e), table.get(Property::Ei, e));
+        let mut sum = ElementTangent::zero();
         for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {
             let direction = Direction::of(u.combine(&shape.slope).scale(1.0 / length));
             let rate = Vector3::from(v.combine(&shape.slope)) / length;
@@ -478,8 +520,9 @@ pub fn tangent<S: Stretch, W: Water, B: Bending>(
                 point.load -= load * wet;
                 point.turning -= turning * wet;
             }
-            scatter(matrix, e, &shape.scaled(length), gauss.weight * length, &point);
+            sum.add(&shape.scaled(length), gauss.weight * length, &point);
         }
+        sum.add_to(matrix, e);
     }
 }
 

@@ -4,8 +4,9 @@
 //! components 0–2 and slope dr/ds (or its rate) [-] in components 3–5. Nodes run from the anchor to the fairlead. Each component
 //! is padded with zeros, and so is the end, so that elements can be read in batches without a look at where the line ends.
 
-use crate::algebra::lanes::{MOST_LANES, padded};
+use crate::algebra::lanes::{Lanes, MOST_LANES, Real, padded};
 use nalgebra::Vector3;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Components per node: three of position, three of slope.
 pub const COMPONENTS: usize = 6;
@@ -132,5 +133,45 @@ impl State {
     /// A line of `nodes` nodes, all zero.
     pub fn new(nodes: usize) -> State {
         State { u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes) }
+    }
+}
+
+impl State {
+    /// Takes `factors` (for u, v, a) times an increment away, and returns the largest entry of the increment times `scales` (for
+    /// positions, slopes); NaN if any is not finite.
+    pub fn retreat(&mut self, factors: [f64; 3], increment: &Field, scales: [f64; 2]) -> f64 {
+        Arch::new().dispatch(Retreat { state: self, factors, increment, scales })
+    }
+}
+
+struct Retreat<'a> {
+    state: &'a mut State,
+    factors: [f64; 3],
+    increment: &'a Field,
+    scales: [f64; 2],
+}
+
+impl WithSimd for Retreat<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> f64 {
+        let (stride, x) = (self.increment.stride, self.increment.data.as_slice());
+        let State { u, v, a } = self.state;
+        let [c_u, c_v, c_a] = self.factors;
+        let (mut largest, mut finite) = (Lanes::splat(cpu, 0.0), Lanes::splat(cpu, 0.0));
+        for (part, scale) in self.scales.into_iter().enumerate() {
+            for at in (3 * part * stride..3 * (part + 1) * stride).step_by(V::F64_LANES) {
+                let x = Lanes::load(cpu, x, at);
+                largest = largest.max((x * scale).max(-x * scale));
+                finite = x.scale_add(0.0, finite); // 0·x is NaN for all that is not finite.
+                x.scale_add(-c_u, Lanes::load(cpu, &u.data, at)).store(&mut u.data, at);
+                x.scale_add(-c_v, Lanes::load(cpu, &v.data, at)).store(&mut v.data, at);
+                x.scale_add(-c_a, Lanes::load(cpu, &a.data, at)).store(&mut a.data, at);
+            }
+        }
+        let mut lanes = [0.0; MOST_LANES];
+        (largest + finite).store(&mut lanes, 0);
+        lanes.into_iter().fold(0.0, |largest: f64, x| if x <= largest { largest } else { x + 0.0 * largest })
     }
 }

@@ -6,7 +6,7 @@ use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, Shape};
-use crate::rod::element::{self, Ends, Motion, PointTangent, Table, Weights};
+use crate::rod::element::{self, ElementTangent, Ends, Motion, PointTangent, Table, Weights};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::seabed::{Plane, Resistance, projector};
@@ -77,16 +77,22 @@ impl Ground {
         let length = table.length_of(e);
         let v = Ends::gather(at.v, e, length);
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
+        let mut products = [[0.0; 4]; 4];
         for part in resistance.touching(&profile).iter() {
             for point in &GAUSS4 {
                 let shape = Shape::at(part.from + (part.to - part.from) * point.x);
                 let rate = v.combine(&shape.value).along(normal);
                 let (by_position, by_rate) = resistance.tangent(self.plane.height(&u.combine(&shape.value).into()), rate);
-                let load = projector(normal) * -(by_position * weights.u + by_rate * weights.v);
-                let scale = point.weight * (part.to - part.from) * length;
-                element::scatter(matrix, e, &shape.scaled(length), scale, &PointTangent::of_load(load, Matrix3::zeros()));
+                let scale = -(by_position * weights.u + by_rate * weights.v) * point.weight * (part.to - part.from) * length;
+                let value = shape.scaled(length).value;
+                for k in 0..4 {
+                    (0..4).for_each(|l| products[k][l] += scale * value[k] * value[l]);
+                }
             }
         }
+        let mut sum = ElementTangent::zero();
+        sum.add_products(&products, &projector(normal));
+        sum.add_to(matrix, e);
     }
 
     /// Unstretched length of element `e` in contact [m].
@@ -155,6 +161,7 @@ impl Surface {
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients(e);
+        let mut sum = ElementTangent::zero();
         for part in surface::wet_parts(&height, self.diameter[e]) {
             for gauss in &GAUSS3 {
                 let shape = Shape::at(part.from + (part.to - part.from) * gauss.x);
@@ -169,9 +176,10 @@ impl Surface {
                 let force = self.force(water, &coefficients, &point, e);
                 tangent.load -= force * Vector3::z().transpose() * (by_height * weights.u);
                 let scale = gauss.weight * (part.to - part.from) * length;
-                element::scatter(matrix, e, &shape.scaled(length), scale, &tangent);
+                sum.add(&shape.scaled(length), scale, &tangent);
             }
         }
+        sum.add_to(matrix, e);
     }
 }
 

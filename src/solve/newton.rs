@@ -163,14 +163,12 @@ impl Newton {
             let mut increment = std::mem::replace(&mut self.increment, Field::new(0));
             self.solve_linear(line, &mut increment);
             self.increment = increment;
-            let (size, node) = self.size(weights.u, criteria.length);
+            let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
+            let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
             if !size.is_finite() {
                 self.forget();
-                return Err(Stall::NotFinite { node });
+                return Err(Stall::NotFinite { node: self.worst_node(scales) });
             }
-            trial.u.add(-weights.u, &self.increment);
-            trial.v.add(-weights.v, &self.increment);
-            trial.a.add(-weights.a, &self.increment);
             let contraction = size / last;
             if last.is_finite() {
                 self.rate = contraction.max(0.3 * self.rate).min(1.0);
@@ -180,7 +178,7 @@ impl Newton {
             }
             if contraction > 2.0 && new_factor {
                 self.forget();
-                return Err(Stall::Diverging { node });
+                return Err(Stall::Diverging { node: self.worst_node(scales) });
             }
             if contraction > SLOW {
                 self.factor(line, &motion(trial), weights, None)?;
@@ -188,28 +186,26 @@ impl Newton {
             }
             last = size;
         }
-        let node = self.size(weights.u, criteria.length).1;
         self.forget();
-        Err(Stall::Diverging { node })
+        Err(Stall::Diverging { node: self.worst_node([weights.u.abs() / criteria.length, weights.u.abs()]) })
     }
 
-    /// Largest scaled increment and its node.
-    fn size(&self, c_u: f64, length: f64) -> (f64, usize) {
+    /// The node of the largest increment, scaled for positions and slopes.
+    fn worst_node(&self, scales: [f64; 2]) -> usize {
         let mut largest = (0.0, 0);
         for c in 0..COMPONENTS {
-            let scale = c_u.abs() / if c < 3 { length } else { 1.0 };
             for (node, x) in self.increment.component(c).iter().enumerate() {
-                let size = (x * scale).abs();
+                let size = (x * scales[c / 3]).abs();
                 // Written so that NaN is the largest of all.
                 if !(size <= largest.0) {
                     largest = (size, node);
                     if size.is_nan() {
-                        return largest;
+                        return node;
                     }
                 }
             }
         }
-        largest
+        largest.1
     }
 }
 
