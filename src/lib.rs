@@ -70,10 +70,12 @@ pub mod solve {
     pub mod newton;
     pub mod outputs;
     pub mod scheme;
+    pub mod search;
     pub mod simulation;
     pub mod snapshot;
     pub mod start;
     pub mod statics;
+    pub mod tangent;
 }
 
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.

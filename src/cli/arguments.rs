@@ -33,7 +33,7 @@ enum Command {
     Check(SceneArguments),
     /// Print the JSON Schema of the scene
     Schema,
-    /// Write an FMU (comes with a later version)
+    /// Write an FMU: a co-simulation unit for FMI 2.0 masters
     Pack(PackArguments),
     /// JSON scene to CABLE file and back (comes with a later version)
     Convert(ConvertArguments),

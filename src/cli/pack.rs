@@ -1,8 +1,21 @@
-//! `moorline pack`: a scene as an FMU.
+//! `moorline pack`: a scene as an FMU. Needs no compiler: the libraries lie beside the program.
 
 use crate::cli::arguments::{PackArguments, Stop};
+use crate::fmi::pack::{self, Libraries};
+use crate::scene::read;
 
-/// Says that this version does not write FMUs yet.
-pub fn pack(_arguments: &PackArguments) -> Result<(), Stop> {
-    Err(Stop::Usage("`moorline pack` comes with a later version; this one does not write FMUs yet".to_string()))
+/// Name of the FMU's model where there is no scene file to take it from.
+pub const BUILT_IN: &str = "moorline";
+
+/// Writes the FMU, and its OSP description beside it.
+pub fn pack(arguments: &PackArguments) -> Result<(), Stop> {
+    let (loaded, name) = match &arguments.scene {
+        Some(path) => {
+            let stem = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
+            (read::load(path, &arguments.sets)?, stem.into_owned())
+        }
+        None => (read::built_in(&arguments.sets)?, BUILT_IN.to_string()),
+    };
+    pack::pack(&loaded.scene, &name, &Libraries::beside_program(), &arguments.output)?;
+    Ok(())
 }

@@ -12,9 +12,9 @@ use crate::algebra::shape::{GAUSS3, SHAPES3, Shape};
 use crate::rod::bending::Bending;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
-use crate::rod::state::Field;
 use crate::rod::seabed::Bed;
 use crate::rod::state::COMPONENTS;
+use crate::rod::state::Field;
 use crate::rod::stretch::{Axial, Direction, Stretch};
 use nalgebra::{Matrix3, Vector3};
 use pulp::{Arch, Simd, WithSimd};
@@ -560,8 +560,7 @@ impl<W: Water> WithSimd for Inertia<'_, W> {
     fn with_simd<V: Simd>(self, cpu: V) {
         for e in (0..self.table.len()).step_by(V::F64_LANES) {
             let table = Batch::<Lanes<V>> { cpu, rows: &self.properties, e };
-            let (length, measure, mass) =
-                (table.get(Property::Length), table.get(Property::Measure), table.get(Property::Mass));
+            let (length, measure, mass) = (table.get(Property::Length), table.get(Property::Measure), table.get(Property::Mass));
             let k = table.coefficients();
             let (u, x) = (Ends::load(cpu, &self.u, e, length), Ends::load(cpu, &self.x, e, length));
             let mut sum = [Triple::zero(cpu); 4];

@@ -10,11 +10,11 @@
 //!
 //!     R = -k L M p N,   M_ij = ∫ N_i N_j dx
 
+use crate::algebra::lanes::Triple;
 use crate::algebra::lanes::{MOST_LANES, Real, padded};
 use crate::algebra::polynomial::{Cubic, Intervals};
 use crate::rod::element::Ends;
 use crate::scene::types::Environment;
-use crate::algebra::lanes::Triple;
 use nalgebra::{Matrix3, Vector3};
 
 /// The plane of the bed.

@@ -107,6 +107,11 @@ impl Field {
         }
     }
 
+    /// Sum of the products, entry by entry.
+    pub fn dot(&self, x: &Field) -> f64 {
+        self.data.iter().zip(&x.data).map(|(a, b)| a * b).sum()
+    }
+
     /// Copies all numbers of a field of the same size.
     pub fn copy_from(&mut self, x: &Field) {
         self.data.copy_from_slice(&x.data);
@@ -133,6 +138,13 @@ impl State {
     /// A line of `nodes` nodes, all zero.
     pub fn new(nodes: usize) -> State {
         State { u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes) }
+    }
+
+    /// Copies the state of a line with as many nodes, without allocation.
+    pub fn copy_from(&mut self, from: &State) {
+        self.u.copy_from(&from.u);
+        self.v.copy_from(&from.v);
+        self.a.copy_from(&from.a);
     }
 }
 

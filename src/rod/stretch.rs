@@ -124,10 +124,12 @@ impl Stretch for Exact {
         let along = t * t.transpose();
         let across = Matrix3::identity() - along;
         let turning = across * rate * (law.damping / stretch);
+        let slack = slack_tangent(law, p, rate);
         AxialTangent {
             by_slope: (along + t * turning.transpose()) * law.ea
-                + across * (geometric.unwrap_or(tension).max(law.floor) / stretch),
-            by_rate: along * (law.ea * law.damping),
+                + across * (geometric.unwrap_or(tension).max(law.floor) / stretch)
+                + slack.by_slope,
+            by_rate: along * (law.ea * law.damping) + slack.by_rate,
         }
     }
 

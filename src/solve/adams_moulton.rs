@@ -32,7 +32,7 @@ impl Scheme for AdamsMoulton {
         next.u.set_sum(&start.u, 0.5 * h, &start.v);
         next.u.add(0.5 * h, &next.v);
         bench.prescribe(next, &bench.path.at(from.time + h));
-        bench.newton.solve(bench.line, &weights, next, &bench.criteria)?;
+        bench.solve(&weights, next)?;
 
         self.error.copy_from(&next.a);
         self.error.add(-1.0, &start.a);

@@ -4,7 +4,7 @@ use crate::rod::state::{Field, State};
 use crate::scene::types;
 use crate::solve::esdirk::{Esdirk, TR_BDF2};
 use crate::solve::newton::{Criteria, Stall};
-use crate::solve::scheme::{self, Bench, Moment, Scheme};
+use crate::solve::scheme::{self, Bench, Moment, Scheme, Stages};
 
 /// What a run demands of its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +34,15 @@ pub struct Tally {
     pub unresolved: usize,
     /// Largest estimated error of an accepted step over the allowed one.
     pub error: f64,
+}
+
+/// A step that was accepted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leg {
+    /// Its length [s].
+    pub h: f64,
+    /// Taken by the L-stable method.
+    pub guarded: bool,
 }
 
 /// A step could not be taken.
@@ -79,7 +88,7 @@ impl Controller {
         demands: &Demands,
         moment: &mut Moment,
         until: f64,
-        mut accepted: impl FnMut(&Moment),
+        mut accepted: impl FnMut(&Moment, &Leg),
     ) -> Result<(), Failure> {
         let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.time) * 0.5f64.powi(HALVINGS);
         let controlled = demands.fixed_step.is_none();
@@ -90,6 +99,7 @@ impl Controller {
             let count = (remaining / wanted - 1e-6).ceil().max(1.0);
             let h = remaining / count;
             let guarded = moment.guard > 0;
+            let recorded = if let Stages::Record(kept) = &bench.stages { kept.len() } else { 0 };
             let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };
             let order = scheme.error_order();
             let outcome = scheme.step(bench, moment, h, &mut self.next).map(|error| error / demands.error);
@@ -104,14 +114,16 @@ impl Controller {
                     moment.guard = moment.guard.saturating_sub(1);
                     moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
                     halved = false;
-                    accepted(moment);
+                    accepted(moment, &Leg { h, guarded });
                 }
                 Ok(ratio) if ratio.is_finite() => {
+                    bench.forget_stages(recorded);
                     self.tally.rejected += 1;
                     moment.guard = GUARDED_STEPS;
                     moment.step = (h * (0.9 * ratio.powf(-1.0 / order)).clamp(0.2, 0.9)).max(0.9 * demands.finest_step);
                 }
                 failed => {
+                    bench.forget_stages(recorded);
                     self.tally.rejected += 1;
                     moment.guard = GUARDED_STEPS;
                     moment.last_step = 0.0;
@@ -125,6 +137,24 @@ impl Controller {
             }
         }
         moment.time = until;
+        Ok(())
+    }
+
+    /// Repeats accepted steps on changes of the state, with the linearised stages that `bench` holds.
+    pub fn repeat(
+        &mut self,
+        bench: &mut Bench,
+        legs: &[Leg],
+        change: &mut Moment,
+        mut accepted: impl FnMut(&Moment, usize),
+    ) -> Result<(), Stall> {
+        for (number, leg) in legs.iter().enumerate() {
+            let scheme: &mut dyn Scheme = if leg.guarded { &mut self.guard } else { self.scheme.as_mut() };
+            scheme.step(bench, change, leg.h, &mut self.next)?;
+            let time = change.time + leg.h;
+            self.accept(change, leg.h, time);
+            accepted(change, number);
+        }
         Ok(())
     }
 

@@ -106,7 +106,7 @@ impl Esdirk {
         next.u.set_sum(&self.base, diagonal, &next.v);
         bench.prescribe(next, &bench.path.at(from.time + tableau.nodes[i] * h));
         let weights = Weights { u: diagonal * diagonal, v: diagonal, a: 1.0 };
-        bench.newton.solve(bench.line, &weights, next, &bench.criteria)?;
+        bench.solve(&weights, next)?;
         self.velocities[i].copy_from(&next.v);
         self.accelerations[i].copy_from(&next.a);
         Ok(())

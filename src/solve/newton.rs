@@ -7,6 +7,7 @@ use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor, Singular};
 use crate::rod::element::{Motion, Weights};
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
+use crate::solve::search;
 use nalgebra::{Matrix3, SVector};
 use std::ops::AddAssign;
 
@@ -66,12 +67,15 @@ pub struct Newton {
     factored: Option<Weights>,
     rate: f64,
     increment: Field,
+    start: State,
     /// Work done so far.
     pub effort: Effort,
 }
 
 /// Largest change of c_u (relative) for which an old factor is still tried.
 const STALE: f64 = 0.3;
+/// Damped iterations before giving up.
+const DAMPED: usize = 25;
 /// Contraction beyond which the tangent is factored anew.
 const SLOW: f64 = 0.25;
 
@@ -85,6 +89,7 @@ impl Newton {
             factored: None,
             rate: 1.0,
             increment: Field::new(nodes),
+            start: State::new(nodes),
             effort: Effort::default(),
         }
     }
@@ -150,6 +155,21 @@ impl Newton {
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
     pub fn solve(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
+        self.start.copy_from(trial);
+        let quick = self.iterate(line, weights, trial, criteria);
+        if quick.is_ok() {
+            return quick;
+        }
+        trial.copy_from(&self.start);
+        let damped = self.iterate_damped(line, weights, trial, criteria);
+        if damped.is_err() {
+            self.forget();
+        }
+        damped
+    }
+
+    /// Modified Newton: whole steps with an old factor, as long as they contract.
+    fn iterate(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
         if !self.factored.as_ref().is_some_and(fresh) {
             self.rate = 1.0;
@@ -158,16 +178,11 @@ impl Newton {
         let mut last = f64::INFINITY;
         let mut new_factor = self.factored == Some(*weights) && self.rate == 1.0;
         for _ in 0..criteria.iterations {
-            self.effort.iterations += 1;
-            line.residual(&motion(trial), &mut self.increment);
-            let mut increment = std::mem::replace(&mut self.increment, Field::new(0));
-            self.solve_linear(line, &mut increment);
-            self.increment = increment;
+            self.find_increment(line, trial);
             let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
             let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
             if !size.is_finite() {
-                self.forget();
-                return Err(Stall::NotFinite { node: self.worst_node(scales) });
+                return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
             }
             let contraction = size / last;
             if last.is_finite() {
@@ -177,8 +192,7 @@ impl Newton {
                 return Ok(());
             }
             if contraction > 2.0 && new_factor {
-                self.forget();
-                return Err(Stall::Diverging { node: self.worst_node(scales) });
+                return Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 });
             }
             if contraction > SLOW {
                 self.factor(line, &motion(trial), weights, None)?;
@@ -186,26 +200,75 @@ impl Newton {
             }
             last = size;
         }
-        self.forget();
-        Err(Stall::Diverging { node: self.worst_node([weights.u.abs() / criteria.length, weights.u.abs()]) })
+        Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 })
     }
 
-    /// The node of the largest increment, scaled for positions and slopes.
-    fn worst_node(&self, scales: [f64; 2]) -> usize {
+    /// Full Newton with a search along each step: slower, but it gets round the kinks where the line goes slack or lands.
+    fn iterate_damped(
+        &mut self,
+        line: &dyn Line,
+        weights: &Weights,
+        trial: &mut State,
+        criteria: &Criteria,
+    ) -> Result<(), Stall> {
+        self.rate = 1.0;
+        for _ in 0..DAMPED {
+            self.factor(line, &motion(trial), weights, None)?;
+            self.find_increment(line, trial);
+            let (size, node) = self.size(weights.u, criteria.length);
+            if !size.is_finite() {
+                return Err(Stall::NotFinite { node });
+            }
+            if size < criteria.tolerance {
+                self.apply(weights, -1.0, trial);
+                return Ok(());
+            }
+            let mut residual = Field::new(trial.u.nodes());
+            let mut taken = 0.0;
+            search::share(|share| {
+                self.apply(weights, taken - share, trial);
+                taken = share;
+                line.residual(&motion(trial), &mut residual);
+                line.fixed().iter().for_each(|&(node, component)| residual.component_mut(component)[node] = 0.0);
+                -residual.dot(&self.increment)
+            });
+        }
+        Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 })
+    }
+
+    /// J⁻¹ R at a state, with the factor at hand.
+    fn find_increment(&mut self, line: &dyn Line, trial: &State) {
+        self.effort.iterations += 1;
+        line.residual(&motion(trial), &mut self.increment);
+        let mut increment = std::mem::replace(&mut self.increment, Field::new(0));
+        self.solve_linear(line, &mut increment);
+        self.increment = increment;
+    }
+
+    /// Moves a state by `factor` times the increment.
+    fn apply(&self, weights: &Weights, factor: f64, trial: &mut State) {
+        trial.u.add(factor * weights.u, &self.increment);
+        trial.v.add(factor * weights.v, &self.increment);
+        trial.a.add(factor * weights.a, &self.increment);
+    }
+
+    /// Largest scaled increment and its node.
+    fn size(&self, c_u: f64, length: f64) -> (f64, usize) {
         let mut largest = (0.0, 0);
         for c in 0..COMPONENTS {
+            let scale = c_u.abs() / if c < 3 { length } else { 1.0 };
             for (node, x) in self.increment.component(c).iter().enumerate() {
-                let size = (x * scales[c / 3]).abs();
+                let size = (x * scale).abs();
                 // Written so that NaN is the largest of all.
                 if !(size <= largest.0) {
                     largest = (size, node);
                     if size.is_nan() {
-                        return node;
+                        return largest;
                     }
                 }
             }
         }
-        largest.1
+        largest
     }
 }
 

@@ -95,6 +95,36 @@ pub fn along(line: &dyn Line, state: &State, change: &State, step: f64) -> Outpu
     }
 }
 
+/// Force and place of the fairlead, and their changes for a change of the state.
+pub struct EndChange {
+    /// Force of the line on what holds it [N].
+    pub force: Vector3<f64>,
+    /// Position [m].
+    pub place: Vector3<f64>,
+    /// Change of the force [N].
+    pub force_change: Vector3<f64>,
+    /// Change of the position [m].
+    pub place_change: Vector3<f64>,
+}
+
+/// The fairlead along a change of the state.
+pub fn end_along(line: &dyn Line, state: &State, change: &State) -> EndChange {
+    let step = 1.0e-4;
+    let force = |factor: f64| {
+        let mut moved = state.clone();
+        moved.u.add(factor, &change.u);
+        moved.v.add(factor, &change.v);
+        moved.a.add(factor, &change.a);
+        line.end_force(&motion(&moved))
+    };
+    EndChange {
+        force: line.end_force(&motion(state)),
+        place: state.u.position(line.last()),
+        force_change: (force(step) - force(-step)) * (0.5 / step),
+        place_change: change.u.position(line.last()),
+    }
+}
+
 /// Nodes of a state, from the fairlead; the second node of a joint is left out.
 pub fn nodes(line: &dyn Line, state: &State) -> Vec<NodeOutput> {
     let mesh = line.mesh();

@@ -1,5 +1,6 @@
 //! What every time integration scheme is made of: a step from one state to the next as a few stages, and an estimate of its error.
 
+use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
 use crate::scene::types;
@@ -8,6 +9,7 @@ use crate::solve::esdirk::{ARK3, Esdirk};
 use crate::solve::generalized_alpha::GeneralizedAlpha;
 use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Newton, Stall, motion};
+use crate::solve::tangent::{LinearStage, SolvedStage};
 
 /// The line in time: the state and what the predictor remembers of the step before.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +38,18 @@ pub struct Bench<'a> {
     pub path: &'a Path,
     /// When a stage is solved.
     pub criteria: Criteria,
+    /// What else happens to a stage.
+    pub stages: Stages<'a>,
+}
+
+/// What happens to the stages of a step.
+pub enum Stages<'a> {
+    /// They are solved.
+    Solve,
+    /// They are solved and kept.
+    Record(&'a mut Vec<SolvedStage>),
+    /// What moves are changes, and the stages are the linearised ones of a step taken before, in their order.
+    Linear(std::slice::Iter<'a, LinearStage>),
 }
 
 impl Bench<'_> {
@@ -50,21 +64,42 @@ impl Bench<'_> {
     /// Passes an error of u through the stage matrix, J⁻¹ M e: what stiff waves that the step does not resolve contribute is damped
     /// as the step itself damps it (Hosea & Shampine 1996). Needs the factor of the stage.
     pub fn filter(&mut self, state: &State, error: &mut Field, scratch: &mut Field) {
+        if matches!(self.stages, Stages::Linear(_)) {
+            return;
+        }
         self.line.inertia(&motion(state), error, scratch);
         self.newton.solve_linear(self.line, scratch);
         error.copy_from(scratch);
     }
 
-    /// Accelerations that fit positions, velocities and the prescribed acceleration: M a = -R(u, v, 0).
+    /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
+    pub fn solve(&mut self, weights: &Weights, trial: &mut State) -> Result<(), Stall> {
+        match &mut self.stages {
+            Stages::Linear(stages) => {
+                if let Some(stage) = stages.next() {
+                    stage.solve(self.line, trial);
+                }
+                Ok(())
+            }
+            Stages::Solve => self.newton.solve(self.line, weights, trial, &self.criteria),
+            Stages::Record(kept) => {
+                self.newton.solve(self.line, weights, trial, &self.criteria)?;
+                kept.push(SolvedStage { weights: *weights, state: trial.clone() });
+                Ok(())
+            }
+        }
+    }
+
+    /// Forgets the stages kept of a step that was rejected.
+    pub fn forget_stages(&mut self, kept_before: usize) {
+        if let Stages::Record(kept) = &mut self.stages {
+            kept.truncate(kept_before);
+        }
+    }
+
+    /// Accelerations that fit positions, velocities and the prescribed acceleration: R(u, v, a) = 0 for a alone.
     pub fn accelerate(&mut self, state: &mut State) -> Result<(), Stall> {
-        let weights = crate::rod::element::Weights { u: 0.0, v: 0.0, a: 1.0 };
-        self.newton.factor(self.line, &motion(state), &weights, None)?;
-        let mut residual = Field::new(state.u.nodes());
-        self.line.residual(&motion(state), &mut residual);
-        self.newton.solve_linear(self.line, &mut residual);
-        state.a.add(-1.0, &residual);
-        self.newton.forget();
-        Ok(())
+        self.solve(&Weights { u: 0.0, v: 0.0, a: 1.0 }, state)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
 use crate::rod::line::{Line, Supports};
-use crate::rod::mesh::Mesh;
+use crate::rod::mesh::{Element, Mesh};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
@@ -13,10 +13,11 @@ use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
 use crate::solve::outputs;
 pub use crate::solve::outputs::{NodeOutput, Outputs};
-use crate::solve::scheme::{Bench, Moment};
+use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
 use crate::solve::start::{self, Bounds};
 use crate::solve::statics;
+use crate::solve::tangent::LinearStage;
 use nalgebra::Vector3;
 
 /// How statics went.
@@ -80,6 +81,8 @@ pub struct Simulation {
 const ERROR_SHARE: f64 = 6.0e-3;
 /// The finest step for the sake of the error, as a share of the longest.
 const FINEST_SHARE: f64 = 1.0e-3;
+/// Nor is a step made finer for that sake than this share of the time that an axial wave needs to cross an element.
+const CROSSING_SHARE: f64 = 0.1;
 /// Newton increments count as converged at this share of the tolerance.
 const NEWTON_SHARE: f64 = 0.01;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
@@ -123,6 +126,8 @@ impl Simulation {
     /// Line number `index` of a checked scene on a given mesh.
     fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Simulation {
         let (decisions, nodes, length) = (physics::decisions(scene, &mesh), mesh.nodes(), mesh.length);
+        let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
+        let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
         let (surroundings, supports) = (Surroundings::of(scene, &mesh), Supports::pinned(&mesh));
         let line = physics::build(mesh, surroundings.clone(), supports);
         let solver = &scene.solver;
@@ -138,7 +143,7 @@ impl Simulation {
             tolerance: solver.tolerance,
             demands: Demands {
                 error: 0.0,
-                finest_step: FINEST_SHARE * solver.max_step,
+                finest_step: (FINEST_SHARE * solver.max_step).max(CROSSING_SHARE * crossing).min(solver.max_step),
                 max_step: solver.max_step,
                 fixed_step: solver.fixed_step,
                 criteria,
@@ -221,8 +226,9 @@ impl Simulation {
         let mut force = line.end_force(&motion(&self.moment.state));
         let mut place = self.moment.state.u.position(line.last());
         let work = &mut self.work;
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria: self.demands.criteria };
-        self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment| {
+        let criteria = self.demands.criteria;
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Solve };
+        self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment, _| {
             let (force_now, place_now) = (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
             *work += 0.5 * (force + force_now).dot(&(place_now - place));
             (force, place) = (force_now, place_now);
@@ -234,14 +240,9 @@ impl Simulation {
         if !std::mem::take(&mut self.fresh) {
             return Ok(());
         }
-        let now = path.at(self.moment.time);
-        let mut bench = Bench { line: self.line.as_ref(), newton: &mut self.newton, path, criteria: self.demands.criteria };
-        bench.prescribe(&mut self.moment.state, &now);
-        if now.velocity.norm() + now.acceleration.norm() > 0.0 {
-            let time = self.moment.time;
-            bench.accelerate(&mut self.moment.state).map_err(|stall| Failure { time, step: 0.0, stall: Some(stall) })?;
-        }
-        Ok(())
+        let (time, criteria) = (self.moment.time, self.demands.criteria);
+        let mut bench = Bench { line: self.line.as_ref(), newton: &mut self.newton, path, criteria, stages: Stages::Solve };
+        begin(&mut bench, &mut self.moment).map_err(|stall| Failure { time, step: 0.0, stall: Some(stall) })
     }
 
     fn check_path(&self, until: f64, path: &Path) -> Result<(), Error> {
@@ -344,16 +345,66 @@ impl Simulation {
         rates
     }
 
-    /// Derivatives of all outputs at a time, one for each variation of the path on the way there from a state. The simulation stays
-    /// as it is.
+    /// Derivatives of all outputs at a time, one for each variation of the path on the way there from a state: the steps are taken
+    /// once and then differentiated. The simulation stays as it is.
     pub fn differentiate(
         &mut self,
-        _from: &Snapshot,
-        _until: f64,
-        _path: &Path,
-        _directions: &[Path],
+        from: &Snapshot,
+        until: f64,
+        path: &Path,
+        directions: &[Path],
     ) -> Result<Vec<Outputs>, Error> {
-        todo!()
+        let now = self.snapshot();
+        let tally = (self.controller.tally, self.newton.effort);
+        if !self.restore(from) {
+            return Ok(Vec::new());
+        }
+        let outcome = self.differentiate_from_here(until, path, directions);
+        let stuck = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, from.moment.time))));
+        self.restore(&now);
+        (self.controller.tally, self.newton.effort) = tally;
+        stuck
+    }
+
+    fn differentiate_from_here(&mut self, until: f64, path: &Path, directions: &[Path]) -> Result<Vec<Outputs>, Failure> {
+        let (time, line, criteria) = (self.moment.time, self.line.as_ref(), self.demands.criteria);
+        let failed = |stall| Failure { time, step: 0.0, stall: Some(stall) };
+        let mut stages = Vec::new();
+        let mut legs = Vec::new();
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Record(&mut stages) };
+        let fresh = std::mem::take(&mut self.fresh);
+        if fresh {
+            begin(&mut bench, &mut self.moment).map_err(failed)?;
+        }
+        let mut states = vec![self.moment.state.clone()];
+        let history = self.moment.last_step;
+        self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment, leg| {
+            states.push(moment.state.clone());
+            legs.push(*leg);
+        })?;
+        let linear = stages.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        let mut derivatives = Vec::new();
+        for direction in directions {
+            let stages = Stages::Linear(linear.iter());
+            let mut bench = Bench { line, newton: &mut self.newton, path: direction, criteria, stages };
+            let mut change = controller::at_rest(line.mesh().nodes(), time, 0.0);
+            if fresh {
+                begin(&mut bench, &mut change).map_err(failed)?;
+            }
+            change.last_step = history;
+            let mut work = 0.0;
+            let mut before = outputs::end_along(line, &states[0], &change.state);
+            self.controller
+                .repeat(&mut bench, &legs, &mut change, |change, number| {
+                    let now = outputs::end_along(line, &states[number + 1], &change.state);
+                    work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
+                    work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));
+                    before = now;
+                })
+                .map_err(failed)?;
+            derivatives.push(Outputs { work, ..outputs::along(line, &self.moment.state, &change.state, 1.0e-4) });
+        }
+        Ok(derivatives)
     }
 
     /// Outputs now.
@@ -408,6 +459,13 @@ impl Simulation {
     pub fn last_step(&self) -> LastStep {
         self.last
     }
+}
+
+/// The fairlead takes up the velocity and acceleration of its path, the line the accelerations that fit.
+fn begin(bench: &mut Bench, moment: &mut Moment) -> Result<(), Stall> {
+    let now = bench.path.at(moment.time);
+    bench.prescribe(&mut moment.state, &now);
+    bench.accelerate(&mut moment.state)
 }
 
 fn is_finite(k: &Kinematics) -> bool {

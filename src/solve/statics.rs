@@ -9,6 +9,7 @@ use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::newton::{Newton, motion};
+use crate::solve::search;
 
 /// How an attempt ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,29 +152,13 @@ impl Walk {
     fn move_by(&mut self, length: f64, line: &dyn Line, state: &mut State) -> Option<f64> {
         state.u.set_sum(&self.from, length, &self.step);
         self.evaluate(line, state);
-        let slope = dot(&self.residual, &self.step);
+        let slope = self.residual.dot(&self.step);
         slope.is_finite().then_some(slope)
     }
 
     /// Searches along the step for a place where the energy no longer falls; returns the share of the step taken.
     fn search(&mut self, line: &dyn Line, state: &mut State) -> f64 {
-        let Some(before) = self.move_by(0.0, line, state) else { return 0.0 };
-        let (mut low, mut high) = ((0.0, before), None::<(f64, f64)>);
-        let mut length = 1.0;
-        for _ in 0..12 {
-            match self.move_by(length, line, state) {
-                Some(slope) if slope <= 0.1 * before.abs() && (slope >= -0.5 * before.abs() || high.is_none()) => return length,
-                Some(slope) if slope < 0.0 => low = (length, slope),
-                Some(slope) => high = Some((length, slope)),
-                None => high = Some((length, f64::INFINITY)),
-            }
-            let Some(high) = high else { return length };
-            // Between regula falsi and bisection, so that a steep wall on one side does not stop the search.
-            let chord = if high.1.is_finite() { low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1) } else { low.0 };
-            let width = high.0 - low.0;
-            length = chord.clamp(low.0 + 0.1 * width, high.0 - 0.1 * width);
-        }
-        length
+        search::share(|share| self.move_by(share, line, state).unwrap_or(f64::NAN))
     }
 
     fn evaluate(&mut self, line: &dyn Line, state: &State) {
@@ -191,10 +176,6 @@ impl Walk {
         let allowed = attempt.allowed * line.mesh().total_weight().max(end_tension).max(f64::MIN_POSITIVE);
         Balance { iterations: 0, residual, allowed, node }
     }
-}
-
-fn dot(a: &Field, b: &Field) -> f64 {
-    a.data().iter().zip(b.data()).map(|(a, b)| a * b).sum()
 }
 
 /// Largest unbalanced force; moments on slopes count as forces at the length of the element beside them.
