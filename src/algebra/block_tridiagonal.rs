@@ -6,7 +6,9 @@
 //! Two neighbours i, i+1 may be *tied*: the first half of their unknowns is the same (two slopes at one position). Then the
 //! second half of block i is condensed into block i+1, and the same two recursions hold with other E, G, H.
 
+use crate::algebra::lanes::{Lanes, MOST_LANES, Real};
 use nalgebra::{SMatrix, SVector};
+use pulp::{Arch, Simd, WithSimd};
 
 /// A B×B block.
 pub type Block<const B: usize> = SMatrix<f64, B, B>;
@@ -27,9 +29,42 @@ pub struct BlockTridiagonal<const B: usize> {
 /// The factor of a matrix, ready to solve.
 #[derive(Debug, Clone)]
 pub struct Factor<const B: usize> {
-    inverse: Vec<Block<B>>,
-    back: Vec<Block<B>>,
-    forward: Vec<Block<B>>,
+    inverse: Vec<Columns<B>>,
+    back: Vec<Columns<B>>,
+    forward: Vec<Columns<B>>,
+    processor: Arch,
+}
+
+/// A block of at most 8 rows by columns, padded with zeros, so that a product takes few registers.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+struct Columns<const B: usize>([[f64; MOST_LANES]; B]);
+
+impl<const B: usize> Columns<B> {
+    fn of(block: &Block<B>) -> Self {
+        let mut columns = [[0.0; MOST_LANES]; B];
+        for (column, from) in columns.iter_mut().zip(block.column_iter()) {
+            column.iter_mut().zip(from.iter()).for_each(|(to, from)| *to = *from);
+        }
+        Columns(columns)
+    }
+
+    /// sign·A x + term.
+    #[inline(always)]
+    fn multiply_add<V: Simd>(&self, cpu: V, sign: f64, x: &[f64; MOST_LANES], term: &[f64; MOST_LANES]) -> [f64; MOST_LANES] {
+        let mut y = [0.0; MOST_LANES];
+        let mut r = 0;
+        while r < MOST_LANES {
+            // Two chains of additions, each half as long.
+            let mut sums = [Lanes::load(cpu, term, r), Lanes::splat(cpu, 0.0)];
+            for c in 0..B {
+                sums[c % 2] = Lanes::load(cpu, &self.0[c], r).scale_add(sign * x[c], sums[c % 2]);
+            }
+            (sums[0] + sums[1]).store(&mut y, r);
+            r += V::F64_LANES;
+        }
+        y
+    }
 }
 
 /// Block `index` could not be inverted.
@@ -90,7 +125,9 @@ impl<const B: usize> BlockTridiagonal<B> {
 impl<const B: usize> Factor<B> {
     /// Room for the factor of a matrix of `n` blocks.
     pub fn new(n: usize) -> Self {
-        Factor { inverse: vec![Block::zeros(); n], back: vec![Block::zeros(); n], forward: vec![Block::zeros(); n] }
+        const { assert!(B <= MOST_LANES) };
+        let zeros = || vec![Columns([[0.0; MOST_LANES]; B]); n];
+        Factor { inverse: zeros(), back: zeros(), forward: zeros(), processor: Arch::new() }
     }
 
     /// Factors a matrix. On an error the factor must not be used.
@@ -100,17 +137,16 @@ impl<const B: usize> Factor<B> {
         for i in 0..n {
             let fails = Singular { index: i };
             if i + 1 == n {
-                self.inverse[i] = inverse(&diagonal).ok_or(fails)?;
+                self.inverse[i] = Columns::of(&inverse(&diagonal).ok_or(fails)?);
             } else if a.tied[i] {
                 let mut next = a.diagonal[i + 1];
                 self.condense(i, &diagonal, &a.upper[i], &a.lower[i], &mut next).ok_or(fails)?;
                 diagonal = next;
             } else {
                 let inverse = inverse(&diagonal).ok_or(fails)?;
-                self.inverse[i] = inverse;
-                self.back[i] = inverse * a.upper[i];
-                self.forward[i] = a.lower[i] * inverse;
-                diagonal = a.diagonal[i + 1] - a.lower[i] * self.back[i];
+                let back = inverse * a.upper[i];
+                diagonal = a.diagonal[i + 1] - a.lower[i] * back;
+                self.keep(i, &inverse, &back, &(a.lower[i] * inverse));
             }
         }
         Ok(())
@@ -143,33 +179,61 @@ impl<const B: usize> Factor<B> {
             back[(r, r)] = -1.0;
             forward[(r, r)] = -1.0;
         }
-        (self.inverse[i], self.back[i], self.forward[i]) = (inverse, back, forward);
+        self.keep(i, &inverse, &back, &forward);
         Some(())
     }
 
+    fn keep(&mut self, i: usize, inverse: &Block<B>, back: &Block<B>, forward: &Block<B>) {
+        (self.inverse[i], self.back[i], self.forward[i]) = (Columns::of(inverse), Columns::of(back), Columns::of(forward));
+    }
+
     /// Solves for one right-hand side in place, given component-major: entry c of block i stands at `b[c * stride + i]`.
+    /// Three products of 2B² operations per block.
     pub fn solve(&self, b: &mut [f64], stride: usize) {
-        let n = self.inverse.len();
+        self.processor.dispatch(Solution { factor: self, b, stride });
+    }
+}
+
+struct Solution<'a, const B: usize> {
+    factor: &'a Factor<B>,
+    b: &'a mut [f64],
+    stride: usize,
+}
+
+impl<const B: usize> WithSimd for Solution<'_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        let Solution { factor, b, stride } = self;
+        let n = factor.inverse.len();
+        let none = [0.0; MOST_LANES];
         let mut y = gather::<B>(b, stride, 0);
         for i in 1..n {
-            let next = gather::<B>(b, stride, i) - self.forward[i - 1] * y;
-            scatter(b, stride, i, &next);
-            y = next;
+            y = factor.forward[i - 1].multiply_add(cpu, -1.0, &y, &gather::<B>(b, stride, i));
+            scatter::<B>(b, stride, i, &y);
         }
-        let mut x = self.inverse[n - 1] * y;
-        scatter(b, stride, n - 1, &x);
+        let mut x = factor.inverse[n - 1].multiply_add(cpu, 1.0, &y, &none);
+        scatter::<B>(b, stride, n - 1, &x);
         for i in (0..n - 1).rev() {
-            x = self.inverse[i] * gather::<B>(b, stride, i) - self.back[i] * x;
-            scatter(b, stride, i, &x);
+            let own = factor.inverse[i].multiply_add(cpu, 1.0, &gather::<B>(b, stride, i), &none);
+            x = factor.back[i].multiply_add(cpu, -1.0, &x, &own);
+            scatter::<B>(b, stride, i, &x);
         }
     }
 }
 
-fn gather<const B: usize>(b: &[f64], stride: usize, i: usize) -> SVector<f64, B> {
-    SVector::from_fn(|c, _| b[c * stride + i])
+#[inline(always)]
+fn gather<const B: usize>(b: &[f64], stride: usize, i: usize) -> [f64; MOST_LANES] {
+    let mut x = [0.0; MOST_LANES];
+    for c in 0..B {
+        x[c] = b[c * stride + i];
+    }
+    x
 }
 
-fn scatter<const B: usize>(b: &mut [f64], stride: usize, i: usize, x: &SVector<f64, B>) {
+#[inline(always)]
+fn scatter<const B: usize>(b: &mut [f64], stride: usize, i: usize, x: &[f64; MOST_LANES]) {
     for c in 0..B {
         b[c * stride + i] = x[c];
     }
@@ -244,13 +308,14 @@ mod tests {
             a.multiply(&x, &mut b);
             let mut flat = vec![0.0; 30];
             for i in 0..5 {
-                scatter(&mut flat, 5, i, &b[i]);
+                (0..6).for_each(|c| flat[c * 5 + i] = b[i][c]);
             }
             let mut factor = Factor::new(5);
             factor.factor(&a).unwrap();
             factor.solve(&mut flat, 5);
             for i in 0..5 {
-                assert!((gather::<6>(&flat, 5, i) - x[i]).norm() < 1e-13, "{tied:?} block {i}");
+                let found = SVector::<f64, 6>::from_fn(|c, _| flat[c * 5 + i]);
+                assert!((found - x[i]).norm() < 1e-13, "{tied:?} block {i}");
             }
         }
     }

@@ -5,8 +5,7 @@
 //! r″ curvature vector by unstretched arc length [1/m], EI [N·m²]. Exact for an inextensible rod; for a stretched one the
 //! difference is of the order of the strain. The tangent EI is constant.
 
-use crate::algebra::lanes::Real;
-use nalgebra::Vector3;
+use crate::algebra::lanes::{Real, Triple};
 
 /// Whether the line bends with resistance.
 pub trait Bending: Copy + Send + Sync + 'static {
@@ -15,7 +14,7 @@ pub trait Bending: Copy + Send + Sync + 'static {
 
     /// Moment-like force EI r″ [N·m], work-conjugate to r″.
     #[inline(always)]
-    fn force<F: Real>(ei: F, curvature: &Vector3<F>) -> Vector3<F> {
+    fn force<F: Real>(ei: F, curvature: Triple<F>) -> Triple<F> {
         curvature * ei
     }
 }

@@ -6,14 +6,19 @@
 //! N_k Hermite shape functions, X load per length [N/m], n axial force [N], f force of the water [N/m].
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::algebra::lanes::Real;
+use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
+use crate::algebra::polynomial::Cubic;
 use crate::algebra::shape::{GAUSS3, SHAPES3, Shape};
 use crate::rod::bending::Bending;
-use crate::rod::mesh::{Mesh, Properties};
+use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
+use crate::rod::seabed::Bed;
+use crate::rod::state::COMPONENTS;
 use crate::rod::state::Field;
-use crate::rod::stretch::{Axial, Stretch};
+use crate::rod::stretch::{Axial, Direction, Stretch};
 use nalgebra::{Matrix3, Vector3};
+use pulp::{Arch, Simd, WithSimd};
+use std::marker::PhantomData;
 
 /// The motion at which forces are asked for.
 #[derive(Debug, Clone, Copy)]
@@ -37,27 +42,40 @@ pub struct Weights {
     pub a: f64,
 }
 
-/// Properties of all elements, one array each, so that several elements can be loaded side by side.
+/// A property of an element.
+#[derive(Debug, Clone, Copy)]
+enum Property {
+    /// Length [m]; 1 for joints, so that quotients stay finite.
+    Length,
+    /// 1/length.
+    PerLength,
+    /// Length that counts in integrals [m]; 0 for joints.
+    Measure,
+    Mass,
+    WeightInAir,
+    Buoyancy,
+    /// Height below which an element is certainly wet [m]; infinite where water is everywhere.
+    Waterline,
+    Ea,
+    Damping,
+    Floor,
+    Friction,
+    Ei,
+    DragNormal,
+    DragTangential,
+    AddedNormal,
+    AddedTangential,
+}
+
+const PROPERTIES: usize = Property::AddedTangential as usize + 1;
+
+/// Properties of all elements, one row each, padded, so that several elements can be loaded side by side.
 #[derive(Debug, Clone)]
 pub struct Table {
-    /// Length [m]; 1 for joints, so that quotients stay finite.
-    length: Vec<f64>,
-    /// Length that counts in integrals [m]; 0 for joints.
-    measure: Vec<f64>,
-    mass: Vec<f64>,
-    weight_in_air: Vec<f64>,
-    buoyancy: Vec<f64>,
-    /// Height below which an element is certainly wet [m]; infinite where water is everywhere.
-    waterline: Vec<f64>,
-    ea: Vec<f64>,
-    damping: Vec<f64>,
-    floor: Vec<f64>,
-    friction: Vec<f64>,
-    ei: Vec<f64>,
-    drag_normal: Vec<f64>,
-    drag_tangential: Vec<f64>,
-    added_normal: Vec<f64>,
-    added_tangential: Vec<f64>,
+    elements: usize,
+    stride: usize,
+    data: Vec<f64>,
+    processor: Arch,
 }
 
 /// Bound of the friction of a slack element, as a share of its weight in air.
@@ -66,168 +84,319 @@ const SLACK_FRICTION: f64 = 0.05;
 impl Table {
     /// The properties of a mesh; `surface`: there is air above z = 0.
     pub fn new(mesh: &Mesh, surface: bool) -> Table {
-        let column =
-            |f: &dyn Fn(&Properties) -> f64| -> Vec<f64> { (0..mesh.elements.len()).map(|e| f(mesh.properties_of(e))).collect() };
-        Table {
-            length: mesh.elements.iter().map(|e| if e.is_joint() { 1.0 } else { e.length }).collect(),
-            measure: mesh.elements.iter().map(|e| e.length).collect(),
-            mass: column(&|p| p.mass),
-            weight_in_air: column(&|p| p.weight_in_air),
-            buoyancy: column(&|p| p.weight_in_air - p.weight),
-            waterline: column(&|p| if surface { -0.5 * p.diameter } else { f64::INFINITY }),
-            ea: column(&|p| p.ea),
-            damping: column(&|p| p.damping),
-            floor: column(&|p| p.tension_floor()),
-            friction: mesh.elements.iter().map(|e| SLACK_FRICTION * mesh.sections[e.section].slack_weight() * e.length).collect(),
-            ei: column(&|p| p.ei),
-            drag_normal: column(&|p| p.drag_normal),
-            drag_tangential: column(&|p| p.drag_tangential),
-            added_normal: column(&|p| p.added_normal),
-            added_tangential: column(&|p| p.added_tangential),
+        let elements = mesh.elements.len();
+        let stride = padded(elements + 1);
+        let mut data = vec![0.0; PROPERTIES * stride + MOST_LANES];
+        let mut put = |property: Property, e: usize, value: f64| data[property as usize * stride + e] = value;
+        for (e, element) in mesh.elements.iter().enumerate() {
+            let p = mesh.properties_of(e);
+            let length = if element.is_joint() { 1.0 } else { element.length };
+            put(Property::Length, e, length);
+            put(Property::PerLength, e, 1.0 / length);
+            put(Property::Measure, e, element.length);
+            put(Property::Mass, e, p.mass);
+            put(Property::WeightInAir, e, p.weight_in_air);
+            put(Property::Buoyancy, e, p.weight_in_air - p.weight);
+            put(Property::Waterline, e, if surface { -0.5 * p.diameter } else { f64::INFINITY });
+            put(Property::Ea, e, p.ea);
+            put(Property::Damping, e, p.damping);
+            put(Property::Floor, e, p.tension_floor());
+            put(Property::Friction, e, SLACK_FRICTION * p.slack_weight() * element.length);
+            put(Property::Ei, e, p.ei);
+            put(Property::DragNormal, e, p.drag_normal);
+            put(Property::DragTangential, e, p.drag_tangential);
+            put(Property::AddedNormal, e, p.added_normal);
+            put(Property::AddedTangential, e, p.added_tangential);
         }
+        Table { elements, stride, data, processor: Arch::new() }
     }
 
     /// Number of elements, joints included.
     pub fn len(&self) -> usize {
-        self.length.len()
+        self.elements
     }
 
     /// Whether there are no elements.
     pub fn is_empty(&self) -> bool {
-        self.length.is_empty()
+        self.elements == 0
     }
 
     /// Length of element `e` [m]; 1 for a joint.
     pub fn length_of(&self, e: usize) -> f64 {
-        self.length[e]
+        self.get(Property::Length, e)
     }
 
     /// Whether element `e` is a joint.
     pub fn is_joint(&self, e: usize) -> bool {
-        self.measure[e] == 0.0
+        self.get(Property::Measure, e) == 0.0
     }
 
-    /// Axial properties of elements from `e` on.
-    #[inline(always)]
-    pub fn axial<F: Real>(&self, e: usize) -> Axial<F> {
-        let load = |column: &[f64]| F::load(&column[e..]);
-        Axial { ea: load(&self.ea), damping: load(&self.damping), floor: load(&self.floor), friction: load(&self.friction) }
+    fn get(&self, property: Property, e: usize) -> f64 {
+        self.data[property as usize * self.stride + e]
     }
 
-    /// Coefficients of the water's force on elements from `e` on.
+    fn rows(&self) -> [&[f64]; PROPERTIES] {
+        std::array::from_fn(|k| &self.data[k * self.stride..][..self.stride + MOST_LANES])
+    }
+
+    /// Coefficients of the water's force on element `e`.
+    pub fn coefficients(&self, e: usize) -> Coefficients<f64> {
+        Batch::<f64> { cpu: (), rows: &self.rows(), e }.coefficients()
+    }
+
+    fn axial(&self, e: usize) -> Axial<f64> {
+        Batch::<f64> { cpu: (), rows: &self.rows(), e }.axial()
+    }
+}
+
+/// Properties of the elements of a batch.
+struct Batch<'a, F: Real> {
+    cpu: F::Cpu,
+    rows: &'a [&'a [f64]; PROPERTIES],
+    e: usize,
+}
+
+impl<F: Real> Batch<'_, F> {
     #[inline(always)]
-    pub fn coefficients<F: Real>(&self, e: usize) -> Coefficients<F> {
+    fn get(&self, property: Property) -> F {
+        F::load(self.cpu, self.rows[property as usize], self.e)
+    }
+
+    #[inline(always)]
+    fn axial(&self) -> Axial<F> {
+        Axial {
+            ea: self.get(Property::Ea),
+            damping: self.get(Property::Damping),
+            floor: self.get(Property::Floor),
+            friction: self.get(Property::Friction),
+        }
+    }
+
+    #[inline(always)]
+    fn coefficients(&self) -> Coefficients<F> {
         Coefficients {
-            drag_normal: F::load(&self.drag_normal[e..]),
-            drag_tangential: F::load(&self.drag_tangential[e..]),
-            added_normal: F::load(&self.added_normal[e..]),
-            added_tangential: F::load(&self.added_tangential[e..]),
+            drag_normal: self.get(Property::DragNormal),
+            drag_tangential: self.get(Property::DragTangential),
+            added_normal: self.get(Property::AddedNormal),
+            added_tangential: self.get(Property::AddedTangential),
         }
     }
 }
 
 /// One vector at each end of an element and its rate by x = s/L: values a, b and slopes times length.
 #[derive(Debug, Clone, Copy)]
-pub struct Ends<F: Real> {
-    a: Vector3<F>,
-    da: Vector3<F>,
-    b: Vector3<F>,
-    db: Vector3<F>,
+pub struct Ends<F> {
+    a: Triple<F>,
+    da: Triple<F>,
+    b: Triple<F>,
+    db: Triple<F>,
+}
+
+impl Ends<f64> {
+    /// Element `e`, of length `length`.
+    pub fn gather(field: &Field, e: usize, length: f64) -> Ends<f64> {
+        Ends::load((), &field.rows(), e, length)
+    }
+
+    /// Height (third component) as a cubic.
+    pub fn height(&self) -> Cubic {
+        Cubic::hermite(self.a.z, self.da.z, self.b.z, self.db.z)
+    }
 }
 
 impl<F: Real> Ends<F> {
     /// Elements from `e` on, of lengths `length`.
     #[inline(always)]
-    pub fn gather(field: &Field, e: usize, length: F) -> Ends<F> {
-        let node = |c: usize, n: usize| F::load(&field.component(c)[n..]);
-        let triple = |c: usize, n: usize| Vector3::new(node(c, n), node(c + 1, n), node(c + 2, n));
+    fn load(cpu: F::Cpu, rows: &[&[f64]; COMPONENTS], e: usize, length: F) -> Ends<F> {
+        let triple = |c: usize, n: usize| Triple {
+            x: F::load(cpu, rows[c], n),
+            y: F::load(cpu, rows[c + 1], n),
+            z: F::load(cpu, rows[c + 2], n),
+        };
         Ends { a: triple(0, e), da: triple(3, e) * length, b: triple(0, e + 1), db: triple(3, e + 1) * length }
     }
 
     /// Value where the shape functions are `n` (unit length).
     #[inline(always)]
-    pub fn combine(&self, n: &[f64; 4]) -> Vector3<F> {
-        self.a * F::splat(n[0]) + self.da * F::splat(n[1]) + self.b * F::splat(n[2]) + self.db * F::splat(n[3])
+    pub fn combine(&self, n: &[f64; 4]) -> Triple<F> {
+        self.a.scale_add(n[0], self.da.scale_add(n[1], self.b.scale_add(n[2], self.db.scale(n[3]))))
     }
 
     /// Height (third component) where the shape functions are `n`.
     #[inline(always)]
     pub fn combine_z(&self, n: &[f64; 4]) -> F {
-        self.a.z * F::splat(n[0]) + self.da.z * F::splat(n[1]) + self.b.z * F::splat(n[2]) + self.db.z * F::splat(n[3])
+        self.a.z.scale_add(n[0], self.da.z.scale_add(n[1], self.b.z.scale_add(n[2], self.db.z * n[3])))
+    }
+
+    /// Bézier control values of the component along a vector: the curve lies between the least and the greatest of them.
+    #[inline(always)]
+    pub fn control_values(&self, direction: &Vector3<f64>) -> [F; 4] {
+        let (first, last) = (self.a.along(direction), self.b.along(direction));
+        let third = 1.0 / 3.0;
+        [first, self.da.along(direction).scale_add(third, first), self.db.along(direction).scale_add(-third, last), last]
     }
 
     /// 1 where the element is certainly below the waterline, else 0.
     #[inline(always)]
-    pub fn wet(&self, waterline: F) -> F {
-        let third = F::splat(1.0 / 3.0);
-        all_wet_lanes([self.a.z, self.a.z + self.da.z * third, self.b.z - self.db.z * third, self.b.z], waterline)
+    fn wet(&self, waterline: F) -> F {
+        let third = 1.0 / 3.0;
+        let top = self.a.z.max(self.b.z).max(self.da.z.scale_add(third, self.a.z)).max(self.db.z.scale_add(-third, self.b.z));
+        (waterline - top).step()
     }
 
     /// End values and end slopes times length: r_i, L p_i, r_j, L p_j.
-    pub fn parts(&self) -> [&Vector3<F>; 4] {
-        [&self.a, &self.da, &self.b, &self.db]
+    #[inline(always)]
+    pub fn parts(&self) -> [Triple<F>; 4] {
+        [self.a, self.da, self.b, self.db]
     }
 }
 
-/// 1 where all control heights lie below the waterline, else 0; without branches.
-#[inline(always)]
-fn all_wet_lanes<F: Real>(heights: [F; 4], waterline: F) -> F {
-    let top = heights[0].max(heights[1]).max(heights[2].max(heights[3]));
-    ((waterline - top) * F::splat(1.0e200)).max(F::zero()).min(F::one())
+/// What acts on the ends of elements, as far as the fast loop goes.
+#[derive(Debug, Clone, Copy)]
+pub struct Acting<F> {
+    /// Forces on positions, and moments on slopes times length [N].
+    pub ends: [Triple<F>; 4],
+    /// Positive where the bed is still to be added, because it may touch a part of the element.
+    pub touching: F,
+    /// Positive where the water is still to be added, because the element may not be all wet.
+    pub dry: F,
 }
 
-/// Whether all control heights of an element lie below the waterline, by the rule of the fast loop.
-pub fn all_wet(heights: [f64; 4], waterline: f64) -> bool {
-    all_wet_lanes(heights, waterline) == 1.0
+/// Everything that the loop over the elements reads.
+struct Source<'a, W> {
+    table: [&'a [f64]; PROPERTIES],
+    water: &'a W,
+    bed: Option<&'a Bed>,
+    u: [&'a [f64]; COMPONENTS],
+    v: [&'a [f64]; COMPONENTS],
+    a: [&'a [f64]; COMPONENTS],
 }
 
-/// Adds the residual of every element to `out`.
-pub fn residual<F: Real, S: Stretch, W: Water, B: Bending>(table: &Table, water: &W, motion: &Motion, out: &mut Field) {
-    let mut e = 0;
-    while e < table.len() {
-        let sum = forces::<F, S, W, B>(table, water, motion, e);
-        scatter_to_nodes(out, e, F::load(&table.length[e..]), &sum);
-        e += F::LANES;
+impl<'a, W> Source<'a, W> {
+    fn new(table: &'a Table, water: &'a W, bed: Option<&'a Bed>, at: &'a Motion) -> Self {
+        Source { table: table.rows(), water, bed, u: at.u.rows(), v: at.v.rows(), a: at.a.rows() }
     }
 }
 
-/// What acts on the ends of elements from `e` on: forces on positions, and moments on slopes times length [N].
+/// What acts on the ends of element `e`.
+pub fn forces<S: Stretch, W: Water, B: Bending>(
+    table: &Table,
+    water: &W,
+    bed: Option<&Bed>,
+    at: &Motion,
+    e: usize,
+) -> Acting<f64> {
+    batch_forces::<f64, S, W, B>((), &Source::new(table, water, bed, at), e)
+}
+
+/// What acts on the ends of elements from `e` on. In drag and stretch about 830 operations, of them 3 quotients and 6 roots.
 #[inline(always)]
-pub fn forces<F: Real, S: Stretch, W: Water, B: Bending>(table: &Table, water: &W, at: &Motion, e: usize) -> [Vector3<F>; 4] {
-    let length = F::load(&table.length[e..]);
-    let per_length = F::one() / length;
-    let measure = F::load(&table.measure[e..]);
-    let (mass, axial) = (F::load(&table.mass[e..]), table.axial::<F>(e));
-    let (u, v, a) = (Ends::gather(at.u, e, length), Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-    let (ei, coefficients) = (F::load(&table.ei[e..]), table.coefficients::<F>(e));
-    let wet = u.wet(F::load(&table.waterline[e..]));
-    let weight = F::load(&table.weight_in_air[e..]) - F::load(&table.buoyancy[e..]) * wet;
-    let mut sum: [Vector3<F>; 4] = [Vector3::zeros(); 4];
+fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: &Source<W>, e: usize) -> Acting<F> {
+    let table = Batch::<F> { cpu, rows: &source.table, e };
+    let (length, per_length, measure) =
+        (table.get(Property::Length), table.get(Property::PerLength), table.get(Property::Measure));
+    let (mass, axial) = (table.get(Property::Mass), table.axial());
+    let (ei, coefficients) = (table.get(Property::Ei), table.coefficients());
+    let load = |rows| Ends::<F>::load(cpu, rows, e, length);
+    let (u, v, a) = (load(&source.u), load(&source.v), load(&source.a));
+    let wet = u.wet(table.get(Property::Waterline));
+    let weight = table.get(Property::WeightInAir) - table.get(Property::Buoyancy) * wet;
+    let mut sum = [Triple::zero(cpu); 4];
     for (gauss, shape) in GAUSS3.iter().zip(&SHAPES3) {
-        let p = u.combine(&shape.slope) * per_length;
+        let direction = Direction::of(u.combine(&shape.slope) * per_length);
         let rate = v.combine(&shape.slope) * per_length;
         let acceleration = a.combine(&shape.value);
-        let n = S::force(&axial, &p, &rate) * per_length;
+        let w = measure * gauss.weight;
+        let n = S::force(cpu, &axial, &direction, rate) * (per_length * w);
         let mut x = acceleration * mass;
-        x.z += weight;
+        x.z = x.z + weight;
         if W::PRESENT {
             let velocity = v.combine(&shape.value);
-            let point = PointMotion { slope: p, height: u.combine_z(&shape.value), velocity, acceleration };
-            x -= morison::force(water, &coefficients, &point) * wet;
+            let point = PointMotion { direction, height: u.combine_z(&shape.value), velocity, acceleration };
+            x = morison::force(cpu, source.water, &coefficients, &point).mul_add(-wet, x);
         }
-        let w = F::splat(gauss.weight) * measure;
-        let (x, n) = (x * w, n * w);
+        let x = x * w;
         for k in 0..4 {
-            sum[k] += x * F::splat(shape.value[k]) + n * F::splat(shape.slope[k]);
+            sum[k] = x.scale_add(shape.value[k], n.scale_add(shape.slope[k], sum[k]));
         }
         if B::PRESENT {
-            let moment = B::force(ei, &(u.combine(&shape.curvature) * (per_length * per_length))) * (per_length * per_length) * w;
+            let per_square = per_length * per_length;
+            let moment = B::force(ei, u.combine(&shape.curvature) * per_square) * (per_square * w);
             for k in 0..4 {
-                sum[k] += moment * F::splat(shape.curvature[k]);
+                sum[k] = moment.scale_add(shape.curvature[k], sum[k]);
             }
         }
     }
-    sum
+    let mut touching = F::splat(cpu, 0.0);
+    if let Some(bed) = source.bed {
+        touching = bed.add_grounded(cpu, &u, measure, e, &mut sum);
+    }
+    Acting { ends: sum, touching, dry: -wet + 1.0 }
+}
+
+/// Adds the residual of every element to `out`, and calls `partly` for each that is still to be looked at, with what there may be.
+pub fn residual<S: Stretch, W: Water, B: Bending>(
+    table: &Table,
+    water: &W,
+    bed: Option<&Bed>,
+    motion: &Motion,
+    out: &mut Field,
+    partly: impl FnMut(usize, bool, bool, &mut Field),
+) {
+    let source = Source::new(table, water, bed, motion);
+    table.processor.dispatch(Residual::<S, W, B, _> { table, source, out, partly, laws: PhantomData });
+}
+
+struct Residual<'a, S, W, B, P> {
+    table: &'a Table,
+    source: Source<'a, W>,
+    out: &'a mut Field,
+    partly: P,
+    laws: PhantomData<(S, B)>,
+}
+
+impl<S: Stretch, W: Water, B: Bending, P: FnMut(usize, bool, bool, &mut Field)> WithSimd for Residual<'_, S, W, B, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(mut self, cpu: V) {
+        for e in (0..self.table.len()).step_by(V::F64_LANES) {
+            let acting = batch_forces::<Lanes<V>, S, W, B>(cpu, &self.source, e);
+            let length = Lanes::load(cpu, self.source.table[Property::Length as usize], e);
+            add_to_nodes(cpu, self.out, e, length, &acting.ends);
+            if acting.touching.any_positive() || acting.dry.any_positive() {
+                let (mut touching, mut dry) = ([0.0; MOST_LANES], [0.0; MOST_LANES]);
+                acting.touching.store(&mut touching, 0);
+                acting.dry.store(&mut dry, 0);
+                for lane in (0..V::F64_LANES).filter(|lane| e + lane < self.table.len()) {
+                    let (touching, dry) = (touching[lane] > 0.0, dry[lane] > 0.0);
+                    if touching || dry {
+                        (self.partly)(e + lane, touching, dry, self.out);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Adds what acts on the ends of element `e` (forces, and moments for slopes times length) to the nodes.
+pub fn scatter_to_nodes(out: &mut Field, e: usize, length: f64, sum: &[Triple<f64>; 4]) {
+    add_to_nodes((), out, e, length, sum);
+}
+
+/// The same for elements from `e` on. Lanes meet at nodes, so the left ends are added first, then the right ends. Lanes beyond the
+/// last element hold zeros, since all their properties are zero.
+#[inline(always)]
+fn add_to_nodes<F: Real>(cpu: F::Cpu, out: &mut Field, e: usize, length: F, sum: &[Triple<F>; 4]) {
+    let stride = out.stride();
+    let [a, da, b, db] = [sum[0], sum[1] * length, sum[2], sum[3] * length].map(Triple::components);
+    let data = out.data_mut();
+    for c in 0..3 {
+        a[c].add_to(cpu, data, c * stride + e);
+        da[c].add_to(cpu, data, (c + 3) * stride + e);
+        b[c].add_to(cpu, data, c * stride + e + 1);
+        db[c].add_to(cpu, data, (c + 3) * stride + e + 1);
+    }
 }
 
 /// Tangent of the loads at one point, already weighted: δX = inertial·δr + turning·δr′, δn = axial·δr′, δ(EI r″) = bending·δr″.
@@ -250,24 +419,65 @@ impl PointTangent {
     }
 }
 
-/// Adds `scale` times the point tangent of element `e`, at a point where the shape is `shape` (scaled to the length), to the matrix.
-pub fn scatter(matrix: &mut BlockTridiagonal<6>, e: usize, shape: &Shape, scale: f64, point: &PointTangent) {
-    for k in 0..4 {
+/// Tangent of one element, 4×4 blocks by columns of three: [l][k] couples end value k with end value l.
+#[derive(Debug, Clone)]
+pub struct ElementTangent([[[f64; 9]; 4]; 4]);
+
+impl ElementTangent {
+    /// Zero.
+    pub fn zero() -> ElementTangent {
+        ElementTangent([[[0.0; 9]; 4]; 4])
+    }
+
+    /// Adds `scale` times the tangent at a point where the shape is `shape` (scaled to the length).
+    pub fn add(&mut self, shape: &Shape, scale: f64, point: &PointTangent) {
+        let [load, turning, axial] = [&point.load, &point.turning, &point.axial].map(entries);
         for l in 0..4 {
-            let block = point.load * (shape.value[k] * shape.value[l])
-                + point.turning * (shape.value[k] * shape.slope[l])
-                + point.axial * (shape.slope[k] * shape.slope[l])
-                + Matrix3::identity() * (point.bending * shape.curvature[k] * shape.curvature[l]);
-            let target = match (k / 2, l / 2) {
-                (0, 0) => &mut matrix.diagonal[e],
-                (1, 1) => &mut matrix.diagonal[e + 1],
-                (0, _) => &mut matrix.upper[e],
-                _ => &mut matrix.lower[e],
-            };
-            let mut view = target.fixed_view_mut::<3, 3>(3 * (k % 2), 3 * (l % 2));
-            view += block * scale;
+            let (value, slope) = (scale * shape.value[l], scale * shape.slope[l]);
+            let loads: [f64; 9] = std::array::from_fn(|i| load[i] * value + turning[i] * slope);
+            let axials: [f64; 9] = std::array::from_fn(|i| axial[i] * slope);
+            for k in 0..4 {
+                let block = &mut self.0[l][k];
+                for i in 0..9 {
+                    block[i] += loads[i] * shape.value[k] + axials[i] * shape.slope[k];
+                }
+                if point.bending != 0.0 {
+                    let bending = scale * point.bending * shape.curvature[k] * shape.curvature[l];
+                    [0, 4, 8].into_iter().for_each(|i| block[i] += bending);
+                }
+            }
         }
     }
+
+    /// Adds products[k][l] times one matrix to block (k, l).
+    pub fn add_products(&mut self, products: &[[f64; 4]; 4], matrix: &Matrix3<f64>) {
+        let matrix = entries(matrix);
+        for l in 0..4 {
+            for k in 0..4 {
+                (0..9).for_each(|i| self.0[l][k][i] += matrix[i] * products[k][l]);
+            }
+        }
+    }
+
+    /// Adds the tangent of element `e` to the matrix.
+    pub fn add_to(&self, matrix: &mut BlockTridiagonal<6>, e: usize) {
+        for l in 0..4 {
+            for k in 0..4 {
+                let target = match (k / 2, l / 2) {
+                    (0, 0) => &mut matrix.diagonal[e],
+                    (1, 1) => &mut matrix.diagonal[e + 1],
+                    (0, _) => &mut matrix.upper[e],
+                    _ => &mut matrix.lower[e],
+                };
+                let mut view = target.fixed_view_mut::<3, 3>(3 * (k % 2), 3 * (l % 2));
+                view += Matrix3::from_column_slice(&self.0[l][k]);
+            }
+        }
+    }
+}
+
+fn entries(m: &Matrix3<f64>) -> [f64; 9] {
+    std::array::from_fn(|i| m.as_slice()[i])
 }
 
 /// Adds the tangent of every element to the matrix. `geometric[3e + g]`, where given, is the tension of the geometric part.
@@ -280,26 +490,28 @@ pub fn tangent<S: Stretch, W: Water, B: Bending>(
     matrix: &mut BlockTridiagonal<6>,
 ) {
     for e in 0..table.len() {
-        if table.measure[e] == 0.0 {
+        if table.is_joint(e) {
             continue;
         }
-        let length = table.length[e];
+        let length = table.length_of(e);
         let (u, v, a) = (Ends::gather(at.u, e, length), Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-        let (axial, coefficients) = (table.axial::<f64>(e), table.coefficients::<f64>(e));
-        let wet = u.wet(table.waterline[e]);
+        let (axial, coefficients) = (table.axial(e), table.coefficients(e));
+        let wet = u.wet(table.get(Property::Waterline, e));
+        let (mass, ei) = (table.get(Property::Mass, e), table.get(Property::Ei, e));
+        let mut sum = ElementTangent::zero();
         for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {
-            let p = u.combine(&shape.slope) / length;
-            let rate = v.combine(&shape.slope) / length;
-            let stretch = S::tangent(&axial, &p, &rate, geometric.map(|tension| tension[3 * e + g]));
+            let direction = Direction::of(u.combine(&shape.slope).scale(1.0 / length));
+            let rate = Vector3::from(v.combine(&shape.slope)) / length;
+            let stretch = S::tangent(&axial, &direction.slope.into(), &rate, geometric.map(|tension| tension[3 * e + g]));
             let mut point = PointTangent {
-                load: Matrix3::identity() * (weights.a * table.mass[e]),
+                load: Matrix3::identity() * (weights.a * mass),
                 turning: Matrix3::zeros(),
                 axial: stretch.by_slope * weights.u + stretch.by_rate * weights.v,
-                bending: if B::PRESENT { weights.u * table.ei[e] } else { 0.0 },
+                bending: if B::PRESENT { weights.u * ei } else { 0.0 },
             };
             if W::PRESENT {
                 let motion = PointMotion {
-                    slope: p,
+                    direction,
                     height: u.combine_z(&shape.value),
                     velocity: v.combine(&shape.value),
                     acceleration: a.combine(&shape.value),
@@ -308,8 +520,9 @@ pub fn tangent<S: Stretch, W: Water, B: Bending>(
                 point.load -= load * wet;
                 point.turning -= turning * wet;
             }
-            scatter(matrix, e, &shape.scaled(length), gauss.weight * length, &point);
+            sum.add(&shape.scaled(length), gauss.weight * length, &point);
         }
+        sum.add_to(matrix, e);
     }
 }
 
@@ -327,46 +540,56 @@ pub fn water_tangent<W: Water>(
 
 /// Adds M x to `out`: mass and added mass of every element, as if all were under water.
 pub fn inertia<W: Water>(table: &Table, u: &Field, x: &Field, out: &mut Field) {
-    for e in 0..table.len() {
-        let length = table.length[e];
-        let (ends, x) = (Ends::gather(u, e, length), Ends::gather(x, e, length));
-        let k = table.coefficients::<f64>(e);
-        let mut sum: [Vector3<f64>; 4] = [Vector3::zeros(); 4];
-        for (gauss, shape) in GAUSS3.iter().zip(&SHAPES3) {
-            let x = x.combine(&shape.value);
-            let mut force = x * table.mass[e];
-            if W::PRESENT {
-                let p = ends.combine(&shape.slope);
-                force += x * k.added_normal
-                    + p * ((k.added_tangential - k.added_normal) * p.dot(&x) / p.dot(&p).max(f64::MIN_POSITIVE));
-            }
-            force *= gauss.weight * table.measure[e];
-            for k in 0..4 {
-                sum[k] += force * shape.value[k];
-            }
-        }
-        scatter_to_nodes(out, e, length, &sum);
-    }
+    let properties = table.rows();
+    table.processor.dispatch(Inertia::<W> { table, properties, u: u.rows(), x: x.rows(), out, water: PhantomData });
 }
 
-/// Adds what acts on the ends of element `e` (forces, and moments for slopes times length) to the nodes.
-#[inline(always)]
-pub fn scatter_to_nodes<F: Real>(out: &mut Field, e: usize, length: F, sum: &[Vector3<F>; 4]) {
-    for c in 0..3 {
-        sum[0][c].add_to(&mut out.component_mut(c)[e..]);
-        (sum[1][c] * length).add_to(&mut out.component_mut(c + 3)[e..]);
-        sum[2][c].add_to(&mut out.component_mut(c)[e + 1..]);
-        (sum[3][c] * length).add_to(&mut out.component_mut(c + 3)[e + 1..]);
+struct Inertia<'a, W> {
+    table: &'a Table,
+    properties: [&'a [f64]; PROPERTIES],
+    u: [&'a [f64]; COMPONENTS],
+    x: [&'a [f64]; COMPONENTS],
+    out: &'a mut Field,
+    water: PhantomData<W>,
+}
+
+impl<W: Water> WithSimd for Inertia<'_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        for e in (0..self.table.len()).step_by(V::F64_LANES) {
+            let table = Batch::<Lanes<V>> { cpu, rows: &self.properties, e };
+            let (length, measure, mass) = (table.get(Property::Length), table.get(Property::Measure), table.get(Property::Mass));
+            let k = table.coefficients();
+            let (u, x) = (Ends::load(cpu, &self.u, e, length), Ends::load(cpu, &self.x, e, length));
+            let mut sum = [Triple::zero(cpu); 4];
+            for (gauss, shape) in GAUSS3.iter().zip(&SHAPES3) {
+                let x = x.combine(&shape.value);
+                let mut force = x * mass;
+                if W::PRESENT {
+                    let p = u.combine(&shape.slope);
+                    let along = (k.added_tangential - k.added_normal) * p.dot(x) * (p.dot(p) + f64::MIN_POSITIVE).reciprocal();
+                    force = p.mul_add(along, x.mul_add(k.added_normal, force));
+                }
+                let force = force * (measure * gauss.weight);
+                for k in 0..4 {
+                    sum[k] = force.scale_add(shape.value[k], sum[k]);
+                }
+            }
+            add_to_nodes(cpu, self.out, e, length, &sum);
+        }
     }
 }
 
 /// Tension at the Gauss points of every element [N], three per element.
 pub fn tensions<S: Stretch>(table: &Table, u: &Field, v: &Field, out: &mut [f64]) {
     for e in 0..table.len() {
-        let (ends, rates) = (Ends::gather(u, e, table.length[e]), Ends::gather(v, e, table.length[e]));
+        let length = table.length_of(e);
+        let (ends, rates) = (Ends::gather(u, e, length), Ends::gather(v, e, length));
         for (g, shape) in SHAPES3.iter().enumerate() {
-            let (p, rate) = (ends.combine(&shape.slope) / table.length[e], rates.combine(&shape.slope) / table.length[e]);
-            out[3 * e + g] = S::tension(&table.axial(e), &p, &rate);
+            let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
+            out[3 * e + g] = S::tension(&table.axial(e), &slope(&ends), &slope(&rates));
         }
     }
 }
@@ -374,10 +597,11 @@ pub fn tensions<S: Stretch>(table: &Table, u: &Field, v: &Field, out: &mut [f64]
 /// Tension at the Gauss points after a change of u, to first order in the change [N]: what the mixed method would carry on.
 pub fn linear_tensions<S: Stretch>(table: &Table, u: &Field, change: &Field, out: &mut [f64]) {
     for e in 0..table.len() {
-        let (ends, changes) = (Ends::gather(u, e, table.length[e]), Ends::gather(change, e, table.length[e]));
+        let length = table.length_of(e);
+        let (ends, changes) = (Ends::gather(u, e, length), Ends::gather(change, e, length));
         for (g, shape) in SHAPES3.iter().enumerate() {
-            let (p, dp) = (ends.combine(&shape.slope) / table.length[e], changes.combine(&shape.slope) / table.length[e]);
-            out[3 * e + g] = S::linear_tension(&table.axial(e), &p, &dp);
+            let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
+            out[3 * e + g] = S::linear_tension(&table.axial(e), &slope(&ends), &slope(&changes));
         }
     }
 }

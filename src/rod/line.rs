@@ -3,10 +3,12 @@
 //! Below the seam all is monomorphised for the physics that the scene needs; above it nothing is generic.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::algebra::lanes::Triple;
 use crate::rod::bending::Bending;
 use crate::rod::element::{self, Motion, Table, Weights};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
+use crate::rod::seabed::Bed;
 use crate::rod::state::Field;
 use crate::rod::stretch::Stretch;
 use crate::rod::touching::{Ground, Surface};
@@ -51,7 +53,9 @@ pub struct Rod<S, W, B> {
     table: Table,
     water: W,
     ground: Option<Ground>,
+    bed: Option<Bed>,
     surface: Option<Surface>,
+    joints: Vec<usize>,
     fixed: Vec<(usize, usize)>,
     loads: Vec<(usize, Vector3<f64>)>,
     laws: PhantomData<(S, B)>,
@@ -78,29 +82,33 @@ impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
         let table = Table::new(&mesh, surface.is_some());
-        Rod { mesh, table, water, ground, surface, fixed: supports.fixed, loads: supports.loads, laws: PhantomData }
+        let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance));
+        let joints = (0..table.len()).filter(|e| table.is_joint(*e)).collect();
+        let Supports { fixed, loads } = supports;
+        Rod { mesh, table, water, ground, bed, surface, joints, fixed, loads, laws: PhantomData }
     }
 
     /// Forces on tied nodes, which have one position, go to the second of them.
     fn share_ties(&self, out: &mut Field) {
-        for e in (0..self.table.len()).filter(|e| self.table.is_joint(*e)) {
+        for &e in &self.joints {
             out.set_position(e + 1, &(out.position(e + 1) + out.position(e)));
             out.set_position(e, &Vector3::zeros());
         }
     }
 
-    /// What bed and surface add to the forces on the ends of element `e`.
-    fn partial_forces(&self, at: &Motion, e: usize) -> [Option<[Vector3<f64>; 4]>; 2] {
-        let ground = self.ground.as_ref().and_then(|ground| ground.forces(&self.table, at, e));
-        let surface = self.surface.as_ref().and_then(|surface| surface.forces(&self.table, &self.water, at, e));
+    /// What a bed that touches in part and a surface above some of it add to the forces on the ends of element `e`.
+    fn partial_forces(&self, at: &Motion, e: usize, touching: bool, dry: bool) -> [Option<[Triple<f64>; 4]>; 2] {
+        let ground = self.ground.as_ref().filter(|_| touching).and_then(|ground| ground.forces(&self.table, at, e));
+        let surface = self.surface.as_ref().filter(|_| dry).and_then(|surface| surface.forces(&self.table, &self.water, at, e));
         [ground, surface]
     }
 
     /// All forces on the ends of element `e`.
-    fn element_forces(&self, at: &Motion, e: usize) -> [Vector3<f64>; 4] {
-        let mut sum = element::forces::<f64, S, W, B>(&self.table, &self.water, at, e);
-        for part in self.partial_forces(at, e).into_iter().flatten() {
-            (0..4).for_each(|k| sum[k] += part[k]);
+    fn element_forces(&self, at: &Motion, e: usize) -> [Triple<f64>; 4] {
+        let acting = element::forces::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, e);
+        let mut sum = acting.ends;
+        for part in self.partial_forces(at, e, acting.touching > 0.0, acting.dry > 0.0).into_iter().flatten() {
+            (0..4).for_each(|k| sum[k] = sum[k] + part[k]);
         }
         sum
     }
@@ -117,12 +125,12 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
 
     fn residual(&self, at: &Motion, out: &mut Field) {
         out.fill(0.0);
-        element::residual::<f64, S, W, B>(&self.table, &self.water, at, out);
-        for e in 0..self.table.len() {
-            for part in self.partial_forces(at, e).into_iter().flatten() {
+        let partly = |e: usize, touching: bool, dry: bool, out: &mut Field| {
+            for part in self.partial_forces(at, e, touching, dry).into_iter().flatten() {
                 element::scatter_to_nodes(out, e, self.table.length_of(e), &part);
             }
-        }
+        };
+        element::residual::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
         for (node, force) in &self.loads {
             out.set_position(*node, &(out.position(*node) - force));
         }
@@ -160,14 +168,14 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
         for e in 0..self.table.len() {
             let sum = self.element_forces(at, e);
             if e == 0 {
-                out[0] = -sum[0];
+                out[0] = (-sum[0]).into();
             }
-            out[e + 1] = if self.table.is_joint(e) { out[e] } else { sum[2] };
+            out[e + 1] = if self.table.is_joint(e) { out[e] } else { sum[2].into() };
         }
     }
 
     fn end_force(&self, at: &Motion) -> Vector3<f64> {
-        -self.element_forces(at, self.table.len() - 1)[2]
+        (-self.element_forces(at, self.table.len() - 1)[2]).into()
     }
 
     fn touching_length(&self, u: &Field, e: usize) -> f64 {

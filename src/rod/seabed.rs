@@ -5,9 +5,15 @@
 //! N unit normal of the bed, upwards; g height above it [m]; v_n = N·ṙ [m/s]; k stiffness [Pa]; c damping [Pa·s]; f force on
 //! the line per unstretched length [N/m]. Contact starts δ_0 = w N_z / k above the bed, so that a line at rest lies exactly on
 //! it; δ = max(δ_0, d/10) eases the damper in. On an element g is a cubic, so its touching part is found exactly and integrated
-//! with four Gauss points, which are exact for the spring.
+//! with four Gauss points, which are exact for the spring. Where the bed has no damping and an element touches all along, the
+//! push on its ends is linear in p there:
+//!
+//!     R = -k L M p N,   M_ij = ∫ N_i N_j dx
 
+use crate::algebra::lanes::Triple;
+use crate::algebra::lanes::{MOST_LANES, Real, padded};
 use crate::algebra::polynomial::{Cubic, Intervals};
+use crate::rod::element::Ends;
 use crate::scene::types::Environment;
 use nalgebra::{Matrix3, Vector3};
 
@@ -87,4 +93,56 @@ impl Resistance {
 /// N Nᵀ.
 pub fn projector(normal: &Vector3<f64>) -> Matrix3<f64> {
     normal * normal.transpose()
+}
+
+/// ∫ N_i N_j dx of the Hermite functions of an element of unit length, times 420.
+const PRODUCTS: [[f64; 4]; 4] =
+    [[156.0, 22.0, 54.0, -13.0], [22.0, 4.0, 13.0, -3.0], [54.0, 13.0, 156.0, -22.0], [-13.0, -3.0, -22.0, 4.0]];
+
+/// The bed as the fast loop sees it: rows with one number per element.
+#[derive(Debug, Clone)]
+pub struct Bed {
+    plane: Plane,
+    damped: bool,
+    onset: Vec<f64>,
+    stiffness: Vec<f64>,
+}
+
+impl Bed {
+    /// A plane that resists each element.
+    pub fn new(plane: Plane, resistance: &[Resistance]) -> Bed {
+        let row = |property: fn(&Resistance) -> f64| {
+            let mut row = vec![0.0; padded(resistance.len() + 1) + MOST_LANES];
+            row.iter_mut().zip(resistance).for_each(|(to, resistance)| *to = property(resistance));
+            row
+        };
+        let damped = resistance.iter().any(|resistance| resistance.damping != 0.0);
+        Bed { plane, damped, onset: row(|r| r.onset), stiffness: row(|r| r.stiffness) }
+    }
+
+    /// Adds the push on those elements from `e` on that touch an undamped bed all along; returns a number that is positive for
+    /// those that may touch otherwise.
+    #[inline(always)]
+    pub fn add_grounded<F: Real>(&self, cpu: F::Cpu, u: &Ends<F>, measure: F, e: usize, sum: &mut [Triple<F>; 4]) -> F {
+        let normal = &self.plane.normal;
+        // Penetrations at the Bézier control points.
+        let level = F::load(cpu, &self.onset, e) + self.plane.offset;
+        let control = u.control_values(normal).map(|g| level - g);
+        let most = control[0].max(control[1]).max(control[2].max(control[3]));
+        let least = control[0].min(control[1]).min(control[2].min(control[3]));
+        if self.damped {
+            return most * measure;
+        }
+        if most.any_positive() {
+            let grounded = least.step();
+            let scale = F::load(cpu, &self.stiffness, e) * measure * grounded * (-1.0 / 420.0);
+            let p = [control[0], (control[1] - control[0]) * 3.0, control[3], (control[3] - control[2]) * 3.0];
+            for (sum, row) in sum.iter_mut().zip(&PRODUCTS) {
+                let push = scale * p[0].scale_add(row[0], p[1].scale_add(row[1], p[2].scale_add(row[2], p[3] * row[3])));
+                *sum = Triple::splat(cpu, normal).mul_add(push, *sum);
+            }
+            return most.min(-least) * measure;
+        }
+        F::splat(cpu, 0.0)
+    }
 }

@@ -1,9 +1,12 @@
 //! The unknowns of a line and their rates: plain numbers whose clone is the rollback.
 //!
 //! A `Field` holds six numbers per node, component by component (all x, then all y, …): position (or its rate) [m] in
-//! components 0–2 and slope dr/ds (or its rate) [-] in components 3–5. Nodes run from the anchor to the fairlead.
+//! components 0–2 and slope dr/ds (or its rate) [-] in components 3–5. Nodes run from the anchor to the fairlead. Each component
+//! is padded with zeros, and so is the end, so that elements can be read in batches without a look at where the line ends.
 
+use crate::algebra::lanes::{Lanes, MOST_LANES, Real, padded};
 use nalgebra::Vector3;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Components per node: three of position, three of slope.
 pub const COMPONENTS: usize = 6;
@@ -11,6 +14,7 @@ pub const COMPONENTS: usize = 6;
 /// Six numbers per node, component-major.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
+    nodes: usize,
     stride: usize,
     data: Vec<f64>,
 }
@@ -18,34 +22,51 @@ pub struct Field {
 impl Field {
     /// Zeros for `nodes` nodes.
     pub fn new(nodes: usize) -> Field {
-        Field { stride: nodes, data: vec![0.0; COMPONENTS * nodes] }
+        let stride = padded(nodes);
+        Field { nodes, stride, data: vec![0.0; COMPONENTS * stride + MOST_LANES] }
     }
 
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
+        self.nodes
+    }
+
+    /// Distance in `data` from a component to the next.
+    pub fn stride(&self) -> usize {
         self.stride
     }
 
-    /// All numbers, component-major.
+    /// All numbers, component-major, with the padding, which is zero.
     pub fn data(&self) -> &[f64] {
         &self.data
     }
 
-    /// All numbers, component-major, to change.
+    /// All numbers, component-major, to change; the padding must stay zero.
     pub fn data_mut(&mut self) -> &mut [f64] {
         &mut self.data
+    }
+
+    /// The six components, each with the numbers that follow it, so that a batch may start at any node.
+    #[inline(always)]
+    pub fn rows(&self) -> [&[f64]; COMPONENTS] {
+        std::array::from_fn(|c| &self.data[c * self.stride..][..self.stride + MOST_LANES])
+    }
+
+    /// All numbers but the padding.
+    pub fn numbers(&self) -> impl Iterator<Item = &f64> {
+        (0..COMPONENTS).flat_map(|c| self.component(c))
     }
 
     /// Component `c` of every node.
     #[inline(always)]
     pub fn component(&self, c: usize) -> &[f64] {
-        &self.data[c * self.stride..(c + 1) * self.stride]
+        &self.data[c * self.stride..c * self.stride + self.nodes]
     }
 
     /// Component `c` of every node, to change.
     #[inline(always)]
     pub fn component_mut(&mut self, c: usize) -> &mut [f64] {
-        &mut self.data[c * self.stride..(c + 1) * self.stride]
+        &mut self.data[c * self.stride..c * self.stride + self.nodes]
     }
 
     /// Components 0–2 of a node.
@@ -96,9 +117,9 @@ impl Field {
         self.data.copy_from_slice(&x.data);
     }
 
-    /// Sets all numbers.
+    /// Sets all numbers but the padding.
     pub fn fill(&mut self, value: f64) {
-        self.data.fill(value);
+        (0..COMPONENTS).for_each(|c| self.component_mut(c).fill(value));
     }
 }
 
@@ -124,5 +145,45 @@ impl State {
         self.u.copy_from(&from.u);
         self.v.copy_from(&from.v);
         self.a.copy_from(&from.a);
+    }
+}
+
+impl State {
+    /// Takes `factors` (for u, v, a) times an increment away, and returns the largest entry of the increment times `scales` (for
+    /// positions, slopes); NaN if any is not finite.
+    pub fn retreat(&mut self, factors: [f64; 3], increment: &Field, scales: [f64; 2]) -> f64 {
+        Arch::new().dispatch(Retreat { state: self, factors, increment, scales })
+    }
+}
+
+struct Retreat<'a> {
+    state: &'a mut State,
+    factors: [f64; 3],
+    increment: &'a Field,
+    scales: [f64; 2],
+}
+
+impl WithSimd for Retreat<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> f64 {
+        let (stride, x) = (self.increment.stride, self.increment.data.as_slice());
+        let State { u, v, a } = self.state;
+        let [c_u, c_v, c_a] = self.factors;
+        let (mut largest, mut finite) = (Lanes::splat(cpu, 0.0), Lanes::splat(cpu, 0.0));
+        for (part, scale) in self.scales.into_iter().enumerate() {
+            for at in (3 * part * stride..3 * (part + 1) * stride).step_by(V::F64_LANES) {
+                let x = Lanes::load(cpu, x, at);
+                largest = largest.max((x * scale).max(-x * scale));
+                finite = x.scale_add(0.0, finite); // 0·x is NaN for all that is not finite.
+                x.scale_add(-c_u, Lanes::load(cpu, &u.data, at)).store(&mut u.data, at);
+                x.scale_add(-c_v, Lanes::load(cpu, &v.data, at)).store(&mut v.data, at);
+                x.scale_add(-c_a, Lanes::load(cpu, &a.data, at)).store(&mut a.data, at);
+            }
+        }
+        let mut lanes = [0.0; MOST_LANES];
+        (largest + finite).store(&mut lanes, 0);
+        lanes.into_iter().fold(0.0, |largest: f64, x| if x <= largest { largest } else { x + 0.0 * largest })
     }
 }

@@ -14,7 +14,7 @@
 //!
 //! f_s a twentieth of the element's weight in air, so that it vanishes with the mesh.
 
-use crate::algebra::lanes::{Real, length};
+use crate::algebra::lanes::{Real, Triple, length};
 use nalgebra::{Matrix3, Vector3};
 
 /// Axial properties of an element.
@@ -35,12 +35,36 @@ const BUNCHED: f64 = 0.01;
 /// ė_0, rate at which the friction nears its bound [1/s].
 const RATE: f64 = 0.1;
 
-/// Friction n_s of a slack element [N].
+/// n + n_s, with the friction n_s of slack elements [N].
 #[inline(always)]
-fn slack_force<F: Real>(law: &Axial<F>, strain: F, rate: &Vector3<F>) -> Vector3<F> {
-    let bunched = (strain * F::splat(-1.0 / BUNCHED)).max(F::zero()).min(F::one());
-    let speed = (rate.dot(rate) + F::splat(RATE * RATE)).sqrt();
-    rate * (law.friction * bunched / speed)
+fn with_slack_force<F: Real>(n: Triple<F>, cpu: F::Cpu, law: &Axial<F>, strain: F, rate: Triple<F>) -> Triple<F> {
+    let slack = -strain * law.friction;
+    if !slack.any_positive() {
+        return n;
+    }
+    let bunched = (strain * (-1.0 / BUNCHED)).max(F::splat(cpu, 0.0)).min(F::splat(cpu, 1.0));
+    let speed = (rate.dot(rate) + RATE * RATE).sqrt();
+    rate.mul_add(law.friction * bunched * speed.reciprocal(), n)
+}
+
+/// Direction of the line at a point.
+#[derive(Debug, Clone, Copy)]
+pub struct Direction<F> {
+    /// r′ [-].
+    pub slope: Triple<F>,
+    /// |r′| [-].
+    pub stretch: F,
+    /// t = r′/|r′|.
+    pub tangent: Triple<F>,
+}
+
+impl<F: Real> Direction<F> {
+    /// The direction of a slope.
+    #[inline(always)]
+    pub fn of(slope: Triple<F>) -> Self {
+        let stretch = slope.length();
+        Direction { slope, stretch, tangent: slope * stretch.reciprocal() }
+    }
 }
 
 /// Tangent of n_s.
@@ -66,8 +90,8 @@ pub struct AxialTangent {
 
 /// A law of extension.
 pub trait Stretch: Copy + Send + Sync + 'static {
-    /// Axial force n [N] for slope p = r′ and its rate.
-    fn force<F: Real>(law: &Axial<F>, p: &Vector3<F>, rate: &Vector3<F>) -> Vector3<F>;
+    /// Axial force n [N] for a slope and its rate.
+    fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F>;
     /// Its tangent. `geometric`, where given, replaces the tension in the geometric part (mixed Newton path of statics).
     fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent;
     /// Signed effective tension |n| [N].
@@ -84,11 +108,10 @@ pub struct Exact;
 
 impl Stretch for Exact {
     #[inline(always)]
-    fn force<F: Real>(law: &Axial<F>, p: &Vector3<F>, rate: &Vector3<F>) -> Vector3<F> {
-        let stretch = length(p);
-        let t = p * (F::one() / stretch);
-        let tension = law.ea * (stretch - F::one() + law.damping * t.dot(rate));
-        t * tension.max(law.floor) + slack_force(law, stretch - F::one(), rate)
+    fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F> {
+        let strain = at.stretch + -1.0;
+        let tension = law.ea * law.damping.mul_add(at.tangent.dot(rate), strain);
+        with_slack_force(at.tangent * tension.max(law.floor), cpu, law, strain, rate)
     }
 
     fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
@@ -132,10 +155,10 @@ pub struct Report;
 
 impl Stretch for Report {
     #[inline(always)]
-    fn force<F: Real>(law: &Axial<F>, p: &Vector3<F>, rate: &Vector3<F>) -> Vector3<F> {
-        let half = F::splat(0.5);
-        let lambda = law.ea * (half * (p.dot(p) - F::one()) + law.damping * p.dot(rate));
-        p * lambda.max(law.floor) + slack_force(law, length(p) - F::one(), rate)
+    fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F> {
+        let p = at.slope;
+        let lambda = law.ea * law.damping.mul_add(p.dot(rate), (p.dot(p) + -1.0) * 0.5);
+        with_slack_force(p * lambda.max(law.floor), cpu, law, at.stretch + -1.0, rate)
     }
 
     fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {

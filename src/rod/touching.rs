@@ -3,13 +3,15 @@
 //! The fast loop knows nothing of the bed, and leaves the water out on elements that may not be all wet; both are added here.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::algebra::lanes::Triple;
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, Shape};
-use crate::rod::element::{self, Ends, Motion, PointTangent, Table, Weights};
+use crate::rod::element::{self, ElementTangent, Ends, Motion, PointTangent, Table, Weights};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::seabed::{Plane, Resistance, projector};
 use crate::rod::state::Field;
+use crate::rod::stretch::Direction;
 use crate::rod::surface;
 use nalgebra::{Matrix3, Vector3};
 
@@ -28,21 +30,21 @@ fn integrate(
     part: Interval,
     length: f64,
     mut force: impl FnMut(&Shape) -> Vector3<f64>,
-    sum: &mut [Vector3<f64>; 4],
+    sum: &mut [Triple<f64>; 4],
 ) {
     for point in rule {
         let shape = Shape::at(part.from + (part.to - part.from) * point.x);
         let f = force(&shape) * (point.weight * (part.to - part.from) * length);
         for k in 0..4 {
-            sum[k] += f * shape.value[k];
+            sum[k] = Triple::from(f).scale_add(shape.value[k], sum[k]);
         }
     }
 }
 
 impl Ground {
     fn profile(&self, ends: &Ends<f64>) -> Cubic {
-        let [r0, l0, r1, l1] = ends.parts();
-        self.plane.profile(r0, l0, r1, l1)
+        let [r0, l0, r1, l1] = ends.parts().map(Vector3::from);
+        self.plane.profile(&r0, &l0, &r1, &l1)
     }
 
     /// The element and its height above the bed, unless it is certainly clear of it.
@@ -53,16 +55,16 @@ impl Ground {
     }
 
     /// What the push of the bed adds to the forces on the ends of element `e`, if it is near.
-    pub fn forces(&self, table: &Table, at: &Motion, e: usize) -> Option<[Vector3<f64>; 4]> {
+    pub fn forces(&self, table: &Table, at: &Motion, e: usize) -> Option<[Triple<f64>; 4]> {
         let (u, profile) = self.near(table, at.u, e)?;
         let length = table.length_of(e);
         let v = Ends::gather(at.v, e, length);
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
-        let mut sum = [Vector3::zeros(); 4];
+        let mut sum = [Triple::zero(()); 4];
         for part in resistance.touching(&profile).iter() {
             let push = |shape: &Shape| {
-                let rate = normal.dot(&v.combine(&shape.value));
-                normal * -resistance.push(self.plane.height(&u.combine(&shape.value)), rate)
+                let rate = v.combine(&shape.value).along(normal);
+                normal * -resistance.push(self.plane.height(&u.combine(&shape.value).into()), rate)
             };
             integrate(&GAUSS4, part, length, push, &mut sum);
         }
@@ -75,16 +77,22 @@ impl Ground {
         let length = table.length_of(e);
         let v = Ends::gather(at.v, e, length);
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
+        let mut products = [[0.0; 4]; 4];
         for part in resistance.touching(&profile).iter() {
             for point in &GAUSS4 {
                 let shape = Shape::at(part.from + (part.to - part.from) * point.x);
-                let rate = normal.dot(&v.combine(&shape.value));
-                let (by_position, by_rate) = resistance.tangent(self.plane.height(&u.combine(&shape.value)), rate);
-                let load = projector(normal) * -(by_position * weights.u + by_rate * weights.v);
-                let scale = point.weight * (part.to - part.from) * length;
-                element::scatter(matrix, e, &shape.scaled(length), scale, &PointTangent::of_load(load, Matrix3::zeros()));
+                let rate = v.combine(&shape.value).along(normal);
+                let (by_position, by_rate) = resistance.tangent(self.plane.height(&u.combine(&shape.value).into()), rate);
+                let scale = -(by_position * weights.u + by_rate * weights.v) * point.weight * (part.to - part.from) * length;
+                let value = shape.scaled(length).value;
+                for k in 0..4 {
+                    (0..4).for_each(|l| products[k][l] += scale * value[k] * value[l]);
+                }
             }
         }
+        let mut sum = ElementTangent::zero();
+        sum.add_products(&products, &projector(normal));
+        sum.add_to(matrix, e);
     }
 
     /// Unstretched length of element `e` in contact [m].
@@ -112,18 +120,17 @@ impl Surface {
 
     fn lifted(&self, table: &Table, u: &Field, e: usize) -> Option<(Ends<f64>, Cubic)> {
         let ends = Ends::gather(u, e, table.length_of(e));
-        let [r0, l0, r1, l1] = ends.parts();
-        let height = Cubic::hermite(r0.z, l0.z, r1.z, l1.z);
-        (!element::all_wet(height.0, -0.5 * self.diameter[e]) && !table.is_joint(e)).then_some((ends, height))
+        let height = ends.height();
+        (!height.below(-0.5 * self.diameter[e]) && !table.is_joint(e)).then_some((ends, height))
     }
 
     /// What the force of the water on the wet share of element `e` adds to the forces on its ends, if the element is lifted.
-    pub fn forces<W: Water>(&self, table: &Table, water: &W, at: &Motion, e: usize) -> Option<[Vector3<f64>; 4]> {
+    pub fn forces<W: Water>(&self, table: &Table, water: &W, at: &Motion, e: usize) -> Option<[Triple<f64>; 4]> {
         let (u, height) = self.lifted(table, at.u, e)?;
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-        let coefficients = table.coefficients::<f64>(e);
-        let mut sum = [Vector3::zeros(); 4];
+        let coefficients = table.coefficients(e);
+        let mut sum = [Triple::zero(()); 4];
         for part in surface::wet_parts(&height, self.diameter[e]) {
             let force = |shape: &Shape| {
                 let point = point_motion(&u, &v, &a, length, shape);
@@ -142,7 +149,7 @@ impl Surface {
     /// Force of the water under water [N/m].
     fn force<W: Water>(&self, water: &W, k: &Coefficients<f64>, point: &PointMotion<f64>, e: usize) -> Vector3<f64> {
         let buoyancy = Vector3::new(0.0, 0.0, self.buoyancy[e]);
-        if W::PRESENT { morison::force(water, k, point) + buoyancy } else { buoyancy }
+        if W::PRESENT { Vector3::from(morison::force((), water, k, point)) + buoyancy } else { buoyancy }
     }
 
     /// Adds the tangent of the force of the water on the wet share of a lifted element to the matrix.
@@ -158,7 +165,8 @@ impl Surface {
         let Some((u, height)) = self.lifted(table, at.u, e) else { return };
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-        let coefficients = table.coefficients::<f64>(e);
+        let coefficients = table.coefficients(e);
+        let mut sum = ElementTangent::zero();
         for part in surface::wet_parts(&height, self.diameter[e]) {
             for gauss in self.rule(&height, part, e) {
                 let shape = Shape::at(part.from + (part.to - part.from) * gauss.x);
@@ -173,15 +181,16 @@ impl Surface {
                 let force = self.force(water, &coefficients, &point, e);
                 tangent.load -= force * Vector3::z().transpose() * (by_height * weights.u);
                 let scale = gauss.weight * (part.to - part.from) * length;
-                element::scatter(matrix, e, &shape.scaled(length), scale, &tangent);
+                sum.add(&shape.scaled(length), scale, &tangent);
             }
         }
+        sum.add_to(matrix, e);
     }
 }
 
 fn point_motion(u: &Ends<f64>, v: &Ends<f64>, a: &Ends<f64>, length: f64, shape: &Shape) -> PointMotion<f64> {
     PointMotion {
-        slope: u.combine(&shape.slope) / length,
+        direction: Direction::of(u.combine(&shape.slope).scale(1.0 / length)),
         height: u.combine_z(&shape.value),
         velocity: v.combine(&shape.value),
         acceleration: a.combine(&shape.value),

@@ -4,7 +4,7 @@
 //!
 //! z up from still water [m], V [m/s], rows sorted upwards. The sum has no branches, so it runs on several elements at once.
 
-use crate::algebra::lanes::Real;
+use crate::algebra::lanes::{Real, Triple};
 use crate::scene::types::CurrentPoint;
 use nalgebra::Vector3;
 
@@ -41,12 +41,17 @@ impl Current {
     }
 
     /// Velocity at height z [m/s].
+    pub fn velocity(&self, z: f64) -> Vector3<f64> {
+        self.added_to((), z, Triple::zero(())).into()
+    }
+
+    /// V(z) + other [m/s].
     #[inline(always)]
-    pub fn velocity<F: Real>(&self, z: F) -> Vector3<F> {
-        let mut velocity = self.lowest.map(F::splat);
+    pub fn added_to<F: Real>(&self, cpu: F::Cpu, z: F, other: Triple<F>) -> Triple<F> {
+        let mut velocity = other + Triple::splat(cpu, &self.lowest);
         for layer in &self.layers {
-            let above = (z - F::splat(layer.from)).max(F::zero()).min(F::splat(layer.thickness));
-            velocity += layer.shear.map(F::splat) * above;
+            let above = (z + -layer.from).max(F::splat(cpu, 0.0)).min(F::splat(cpu, layer.thickness));
+            velocity = Triple::splat(cpu, &layer.shear).mul_add(above, velocity);
         }
         velocity
     }

@@ -149,7 +149,7 @@ impl Newton {
         for &(node, component) in line.fixed() {
             b.component_mut(component)[node] = 0.0;
         }
-        let stride = b.nodes();
+        let stride = b.stride();
         self.factor.solve(b.data_mut(), stride);
     }
 
@@ -179,11 +179,11 @@ impl Newton {
         let mut new_factor = self.factored == Some(*weights) && self.rate == 1.0;
         for _ in 0..criteria.iterations {
             self.find_increment(line, trial);
-            let (size, node) = self.size(weights.u, criteria.length);
+            let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
+            let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
             if !size.is_finite() {
-                return Err(Stall::NotFinite { node });
+                return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
             }
-            self.apply(weights, -1.0, trial);
             let contraction = size / last;
             if last.is_finite() {
                 self.rate = contraction.max(0.3 * self.rate).min(1.0);
@@ -192,7 +192,7 @@ impl Newton {
                 return Ok(());
             }
             if contraction > 2.0 && new_factor {
-                return Err(Stall::Diverging { node });
+                return Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 });
             }
             if contraction > SLOW {
                 self.factor(line, &motion(trial), weights, None)?;

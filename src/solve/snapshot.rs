@@ -27,7 +27,7 @@ impl Snapshot {
             [self.nodes() as u64, u64::from(self.fresh), u64::from(m.guard), last.substeps as u64, last.newton_iterations as u64];
         let scalars = [m.time, m.last_step, m.step, self.work, self.error, last.error_estimate];
         let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier];
-        let numbers = scalars.iter().chain(fields.into_iter().flat_map(|field| field.data())).map(|x| x.to_bits());
+        let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).map(|x| x.to_bits());
         words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
     }
 
@@ -51,8 +51,10 @@ impl Snapshot {
             (number()?, number()?, number()?, number()?, number()?, number()?);
         let mut field = || {
             let mut field = Field::new(nodes);
-            for x in field.data_mut() {
-                *x = number()?;
+            for c in 0..COMPONENTS {
+                for x in field.component_mut(c) {
+                    *x = number()?;
+                }
             }
             Some(field)
         };

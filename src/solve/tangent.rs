@@ -68,7 +68,8 @@ impl LinearStage {
             }
         }
         line.fixed().iter().for_each(|&(node, component)| x.component_mut(component)[node] = 0.0);
-        self.factor.solve(x.data_mut(), nodes);
+        let stride = x.stride();
+        self.factor.solve(x.data_mut(), stride);
         trial.u.add(-self.weights.u, &x);
         trial.v.add(-self.weights.v, &x);
         trial.a.add(-self.weights.a, &x);
