@@ -227,6 +227,25 @@ fn cantilever_bends_as_bisshopp_and_drucker_have_it() {
     }
 }
 
+/// A cantilever whose EA jumps at midspan while EI does not: the slopes at the joint may differ in size, and the bending moment passes
+/// it, so it bends like the uniform one (Bisshopp & Drucker, as above; both halves are near inextensible). Measured: 2e-5 of the length.
+#[test]
+fn a_jump_of_axial_stiffness_does_not_hinge_a_beam() {
+    let exact = |name: &str| reference(&format!("/b3_cantilever_tip_load/1/{name}"));
+    let half = |ea: f64| Properties { ei: 1.0, ..material(ea, 1.0, 0.0) };
+    let mesh = Mesh::new(vec![half(1.0e7), half(2.0e7)], &[vec![0.025; 20], vec![0.025; 20]]);
+    assert!(mesh.elements.iter().any(|element| element.is_joint()));
+    let last = mesh.nodes() - 1;
+    let force = Vector3::new(0.0, 0.0, exact("PL2_over_EI"));
+    let holding = Holding::none().hold(last, &[X, Y, Z, 3, 4, 5]).load(0, force);
+    let mut rig = Rig::new(mesh, nothing(), holding);
+    rig.stretch(Vector3::new(1.0, 0.0, 0.0), Vector3::zeros());
+    rig.settle();
+    let tip = rig.state.u.position(0);
+    assert_small("lateral", tip.z - exact("tip_lateral_over_L"), 6e-5);
+    assert_small("along", tip.x - exact("tip_along_over_L"), 6e-5);
+}
+
 /// Source: pure bending. Turning the free end by 2π closes a rod of length L to a circle of radius L/2π, and the couple on the clamp is
 /// 2π EI/L. The end is turned by prescribing its slope; its place is free.
 /// Measured at 40 elements: gap 6e-7, diameter 4e-5, couple 8e-5.

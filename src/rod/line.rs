@@ -6,6 +6,7 @@ use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
 use crate::rod::bending::Bending;
 use crate::rod::element::{self, Motion, Table, Weights};
+use crate::rod::joint;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
 use crate::rod::seabed::Bed;
@@ -14,6 +15,7 @@ use crate::rod::stretch::Stretch;
 use crate::rod::touching::{Ground, Surface};
 use nalgebra::Vector3;
 use std::marker::PhantomData;
+use std::ops::AddAssign;
 
 /// A discrete line: its residual force and the tangent of it.
 pub trait Line: Send + Sync {
@@ -56,6 +58,8 @@ pub struct Rod<S, W, B> {
     bed: Option<Bed>,
     surface: Option<Surface>,
     joints: Vec<usize>,
+    /// Joints that transmit a moment, and their rotational stiffness [N·m].
+    stiff_joints: Vec<(usize, f64)>,
     fixed: Vec<(usize, usize)>,
     loads: Vec<(usize, Vector3<f64>)>,
     laws: PhantomData<(S, B)>,
@@ -84,8 +88,9 @@ impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
         let table = Table::new(&mesh, surface.is_some());
         let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e)).collect();
+        let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
         let Supports { fixed, loads } = supports;
-        Rod { mesh, table, water, ground, bed, surface, joints, fixed, loads, laws: PhantomData }
+        Rod { mesh, table, water, ground, bed, surface, joints, stiff_joints, fixed, loads, laws: PhantomData }
     }
 
     /// Forces on tied nodes, which have one position, go to the second of them.
@@ -131,6 +136,11 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
             }
         };
         element::residual::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        for &(e, kappa) in &self.stiff_joints {
+            let (p, q) = (at.u.slope(e), at.u.slope(e + 1));
+            out.set_slope(e, &(out.slope(e) + joint::moment(kappa, &p, &q)));
+            out.set_slope(e + 1, &(out.slope(e + 1) + joint::moment(kappa, &q, &p)));
+        }
         for (node, force) in &self.loads {
             out.set_position(*node, &(out.position(*node) - force));
         }
@@ -147,6 +157,14 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
             if let Some(surface) = &self.surface {
                 surface.tangent(&self.table, &self.water, at, e, weights, matrix);
             }
+        }
+        for &(e, kappa) in &self.stiff_joints {
+            let (p, q) = (at.u.slope(e), at.u.slope(e + 1));
+            let ((below, across), (above, _)) = (joint::tangent(kappa, &p, &q), joint::tangent(kappa, &q, &p));
+            matrix.diagonal[e].fixed_view_mut::<3, 3>(3, 3).add_assign(below * weights.u);
+            matrix.diagonal[e + 1].fixed_view_mut::<3, 3>(3, 3).add_assign(above * weights.u);
+            matrix.upper[e].fixed_view_mut::<3, 3>(3, 3).add_assign(across * weights.u);
+            matrix.lower[e].fixed_view_mut::<3, 3>(3, 3).add_assign(across.transpose() * weights.u);
         }
     }
 
