@@ -43,6 +43,7 @@ pub mod rod {
     pub mod catenary;
     pub mod element;
     pub mod grading;
+    pub mod joint;
     pub mod line;
     pub mod mesh;
     pub mod morison;

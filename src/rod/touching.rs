@@ -136,9 +136,14 @@ impl Surface {
                 let point = point_motion(&u, &v, &a, length, shape);
                 self.force(water, &coefficients, &point, e) * -surface::wet_fraction(point.height, self.diameter[e]).0
             };
-            integrate(&GAUSS3, part, length, force, &mut sum);
+            integrate(self.rule(&height, part, e), part, length, force, &mut sum);
         }
         Some(sum)
+    }
+
+    /// Three points under water, as in the fast loop; four where the line is awash, which are exact for its buoyancy.
+    fn rule(&self, height: &Cubic, part: Interval, e: usize) -> &'static [GaussPoint] {
+        if height.at(0.5 * (part.from + part.to)) < -0.5 * self.diameter[e] { &GAUSS3 } else { &GAUSS4 }
     }
 
     /// Force of the water under water [N/m].
@@ -163,7 +168,7 @@ impl Surface {
         let coefficients = table.coefficients(e);
         let mut sum = ElementTangent::zero();
         for part in surface::wet_parts(&height, self.diameter[e]) {
-            for gauss in &GAUSS3 {
+            for gauss in self.rule(&height, part, e) {
                 let shape = Shape::at(part.from + (part.to - part.from) * gauss.x);
                 let point = point_motion(&u, &v, &a, length, &shape);
                 let (wet, by_height) = surface::wet_fraction(point.height, self.diameter[e]);

@@ -108,10 +108,11 @@ impl Controller {
                 Ok(ratio) if resolved(ratio) => {
                     self.tally.steps += 1;
                     self.tally.guarded += usize::from(guarded);
-                    self.tally.unresolved += usize::from(controlled && ratio > 1.2);
+                    let rough = controlled && ratio > 1.2;
+                    self.tally.unresolved += usize::from(rough);
                     self.tally.error = self.tally.error.max(ratio);
                     self.accept(moment, h, if count == 1.0 { until } else { moment.time + h });
-                    moment.guard = moment.guard.saturating_sub(1);
+                    moment.guard = if rough { GUARDED_STEPS } else { moment.guard.saturating_sub(1) };
                     moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
                     halved = false;
                     accepted(moment, &Leg { h, guarded });
