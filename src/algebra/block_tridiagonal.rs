@@ -49,6 +49,10 @@ impl<const B: usize> Columns<B> {
         Columns(columns)
     }
 
+    fn block(&self) -> Block<B> {
+        Block::from_fn(|r, c| self.0[c][r])
+    }
+
     /// sign·A x + term.
     #[inline(always)]
     fn multiply_add<V: Simd>(&self, cpu: V, sign: f64, x: &[f64; MOST_LANES], term: &[f64; MOST_LANES]) -> [f64; MOST_LANES] {
@@ -143,10 +147,12 @@ impl<const B: usize> Factor<B> {
                 self.condense(i, &diagonal, &a.upper[i], &a.lower[i], &mut next).ok_or(fails)?;
                 diagonal = next;
             } else {
-                let inverse = inverse(&diagonal).ok_or(fails)?;
-                let back = inverse * a.upper[i];
-                diagonal = a.diagonal[i + 1] - a.lower[i] * back;
-                self.keep(i, &inverse, &back, &(a.lower[i] * inverse));
+                let inverse = Columns::of(&inverse(&diagonal).ok_or(fails)?);
+                let (upper, lower) = (Columns::of(&a.upper[i]), Columns::of(&a.lower[i]));
+                let back = self.product(1.0, &inverse, &upper, None);
+                diagonal = self.product(-1.0, &lower, &back, Some(&Columns::of(&a.diagonal[i + 1]))).block();
+                self.forward[i] = self.product(1.0, &lower, &inverse, None);
+                (self.inverse[i], self.back[i]) = (inverse, back);
             }
         }
         Ok(())
@@ -183,6 +189,11 @@ impl<const B: usize> Factor<B> {
         Some(())
     }
 
+    /// sign·A B + term.
+    fn product(&self, sign: f64, a: &Columns<B>, b: &Columns<B>, term: Option<&Columns<B>>) -> Columns<B> {
+        self.processor.dispatch(Product { sign, a, b, term })
+    }
+
     fn keep(&mut self, i: usize, inverse: &Block<B>, back: &Block<B>, forward: &Block<B>) {
         (self.inverse[i], self.back[i], self.forward[i]) = (Columns::of(inverse), Columns::of(back), Columns::of(forward));
     }
@@ -191,6 +202,27 @@ impl<const B: usize> Factor<B> {
     /// Three products of 2B² operations per block.
     pub fn solve(&self, b: &mut [f64], stride: usize) {
         self.processor.dispatch(Solution { factor: self, b, stride });
+    }
+}
+
+struct Product<'a, const B: usize> {
+    sign: f64,
+    a: &'a Columns<B>,
+    b: &'a Columns<B>,
+    term: Option<&'a Columns<B>>,
+}
+
+impl<const B: usize> WithSimd for Product<'_, B> {
+    type Output = Columns<B>;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> Columns<B> {
+        let mut product = Columns([[0.0; MOST_LANES]; B]);
+        for c in 0..B {
+            let term = self.term.map_or([0.0; MOST_LANES], |term| term.0[c]);
+            product.0[c] = self.a.multiply_add(cpu, self.sign, &self.b.0[c], &term);
+        }
+        product
     }
 }
 
