@@ -7,8 +7,8 @@
 //! c₀, c₁  where the last path ended minus E(0), E'(0) [m, m/s]: what the master corrected since;
 //! b₀ = 1 - 3s² + 2s³, b₁ = s - 2s² + s³  cubic Hermite shapes, which fade the correction out over B without a jump in p or p'.
 //!
-//! High orders are exact on smooth motion and wild after a jump or on jitter, so the order is the one that would have foretold the present
-//! values best from the past ones. All of it is linear in the inputs once order and nodes are chosen, which makes the path differentiable.
+//! High orders are exact on smooth motion and wild after a jump or on jitter, so the order is the one that would have foretold the last
+//! values best from those before. All of it is linear in the inputs once order and nodes are chosen, which makes the path differentiable.
 
 use crate::fmi::variables::Interpolation;
 use crate::solve::motion::Path;
@@ -24,10 +24,10 @@ pub const CAPACITY: usize = 32;
 const VELOCITY_NODES: usize = 5;
 /// The same for positions: differentiation costs one order.
 const POSITION_NODES: usize = 6;
-/// Values by which an order is judged: how well those before foretold them.
+/// Past values by which an order is judged: how well those before foretold them.
 const FORETOLD: usize = 3;
 /// Past values that this takes.
-const SPACED_NODES: usize = POSITION_NODES + FORETOLD - 1;
+const SPACED_NODES: usize = POSITION_NODES + FORETOLD;
 /// Largest error of foretelling the present, as a part of all that changed over the nodes, that counts as smooth.
 const SMOOTH: f64 = 0.3;
 /// Most coefficients of a segment: a polynomial of degree 5.
@@ -177,9 +177,10 @@ impl InputPath {
         nodes
     }
 
-    /// The run of nodes that extrapolates best: of the polynomials through m past values the one that came closest to foretelling the present
-    /// and the two values before it; then m - 1 of them and the present one foretell the future. Not simply the longest run: a polynomial
-    /// through five values makes a jitter 31 times larger, and a vessel that answers to the line's force sends it back.
+    /// The run of nodes that extrapolates best: of the polynomials through m values the one that came closest to foretelling the last three
+    /// past values from those before, as long as it did not miss the present by far; then m - 1 past values and the present one foretell
+    /// the future. Not simply the longest run: a polynomial through five values makes a jitter 31 times larger, and a vessel that answers
+    /// to the line's force sends it back. The present value does not choose, so that the path is linear in it.
     ///
     /// What the polynomial through values 1 … m misses of value 0 is f[t₀, …, tₘ]·Π(t₀ - tⱼ), with the divided difference f[…].
     fn smooth_nodes(&self, mut nodes: Vec<usize>, now: &Sample, position_only: bool) -> Vec<usize> {
@@ -204,7 +205,8 @@ impl InputPath {
                 differences[first].norm() * distances.product::<f64>()
             };
             changed += (values[order - 1] - values[order]).norm();
-            let worst = (0..FORETOLD.min(count - order)).map(missed).fold(0.0, f64::max);
+            let worst = (1..=FORETOLD).take_while(|first| first + order < count).map(missed).reduce(f64::max);
+            let Some(worst) = worst else { break };
             if worst < least && (order == 1 || missed(0) <= SMOOTH * changed) {
                 (best, least) = (order - 1, worst);
             }

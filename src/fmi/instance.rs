@@ -460,6 +460,9 @@ impl Instance {
             Error::Value { place, value, allowed, .. } => {
                 Refusal::Parameter { name: self.interface.variable_at(&place), value, allowed }
             }
+            Error::Unsupported { place, feature, .. } => {
+                Refusal::Unsupported { name: self.interface.variable_at(&place), feature }
+            }
             Error::Reach(_) => Refusal::Reach(error),
             other => Refusal::Solver(other),
         }

@@ -180,6 +180,13 @@ assert line.set_real({"anchor.position.z": -200.0}) == OK
 refused(line, "anchor below the bed", line.get_real("tension")[0], "anchor")
 assert line.set_real({"anchor.position.z": -120.0, "line.length": 1.0}) == OK
 refused(line, "line of 1 m over 1190 m", line.get_real("tension")[0], "line.length")
+assert line.set_real({"line.length": 1200.0, "line.submerged_weight": 2000.0}) == OK
+refused(line, "heavier in water than in air", line.get_real("tension")[0], "line.submerged_weight", "weight in air")
+assert line.set_real({"line.submerged_weight": 1157.0, "fairlead.position.z": -130.0}) == OK
+refused(line, "fairlead below the bed", line.get_real("tension")[0], "fairlead.position")
+assert line.set_real({"fairlead.position.z": 0.0, "water.depth": 50.0}) == OK
+refused(line, "water less deep than the anchor", line.get_real("tension")[0], "anchor.position")
+assert line.set_real({"water.depth": 120.0, "line.length": 1.0}) == OK
 refused(line, "start with a line of 1 m", line.call("fmi2ExitInitializationMode"), "line.length")
 refused(line, "step after a failed start", line.do_step(0.0, 0.1), "after an error")
 refused(line, "state after an error", line.get_state()[0], "after an error")
