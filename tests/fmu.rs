@@ -59,6 +59,18 @@ fn scene() -> Result<Scene, String> {
     serde_json::from_str(include_str!("../examples/lindahl-sjoberg.json")).map_err(|error| error.to_string())
 }
 
+/// The built-in scene with a rope at the fairlead and a current: an FMU of this kind has the scene's names.
+fn two_sections() -> Result<Scene, String> {
+    let mut scene = serde_json::to_value(scene()?).map_err(|error| error.to_string())?;
+    let mut rope = scene["line_types"]["chain"].clone();
+    (rope["ea"], rope["mass"], rope["submerged_weight"]) = (2.0e8.into(), 60.0.into(), 300.0.into());
+    scene["line_types"]["rope"] = rope;
+    scene["lines"][0]["sections"] = serde_json::json!([{"type": "rope", "length": 300.0}, {"type": "chain", "length": 900.0}]);
+    scene["environment"]["current"] =
+        serde_json::json!([{"z": 0.0, "velocity": [0.5, 0.2, 0.0]}, {"z": -120.0, "velocity": [0.1, 0.0, 0.0]}]);
+    serde_json::from_value(scene).map_err(|error| error.to_string())
+}
+
 /// Tension of the solver alone on the built-in motion, at the FMU's communication points, as CSV.
 fn standalone() -> Result<String, String> {
     let scene = scene()?;
@@ -90,6 +102,8 @@ fn prepared() -> &'static Result<(PathBuf, PathBuf), String> {
         let fmu = folder.join("moorline.fmu");
         std::fs::write(folder.join("standalone.csv"), standalone()?).map_err(|error| error.to_string())?;
         pack(&scene()?, "moorline", &Libraries::beside_program(), &fmu).map_err(|error| error.to_string())?;
+        let other = folder.join("two-sections.fmu");
+        pack(&two_sections()?, "two-sections", &Libraries::beside_program(), &other).map_err(|error| error.to_string())?;
         Ok((python()?, fmu))
     })
 }
@@ -133,6 +147,11 @@ fn tension_follows_the_published_case_for_every_kind_of_master() {
 #[test]
 fn derivatives_agree_with_differences_taken_by_rollback() {
     script("derivatives.py");
+}
+
+#[test]
+fn a_scene_of_two_sections_has_its_own_names() {
+    script("sections.py");
 }
 
 #[test]

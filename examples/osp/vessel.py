@@ -10,11 +10,12 @@ import math
 
 from pythonfmu import Fmi2Causality, Fmi2Slave, Real
 
-MASS = 2.0e7
-DAMPING = (4.0e5, 6.0e5, 4.0e6)
-HEAVE_STIFFNESS = 1.2e7
-ARM = 50.0
-SUBSTEPS = 10
+MASS = 2.0e7  # kg, with the water that moves along
+DAMPING = (0.02, 0.03, 0.2)  # per mass, 1/s
+HEAVE_STIFFNESS = 0.6  # per mass, 1/s^2: a period of 8 s
+SWELL = 0.025  # m/s^2
+ARM = 50.0  # m
+SUBSTEP = 0.01  # s
 
 
 class Vessel(Fmi2Slave):
@@ -24,7 +25,7 @@ class Vessel(Fmi2Slave):
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
         self.mass = MASS
-        self.swell = 5.0e5
+        self.swell = SWELL
         self.period = 12.0
         self.position = [0.0, 0.0, 0.0]
         self.velocity = [0.0, 0.0, 0.0]
@@ -54,18 +55,18 @@ class Vessel(Fmi2Slave):
                 )
 
     def do_step(self, current_time, step_size):
-        h = step_size / SUBSTEPS
+        count = math.ceil(step_size / SUBSTEP - 1e-6)
+        h = step_size / count
         vertical = sum(force[2] for force in self.forces.values())
         if not hasattr(self, "weight_of_lines"):
             self.weight_of_lines = vertical
-        for index in range(SUBSTEPS):
+        for index in range(count):
             time = current_time + index * h
-            swell = self.swell * math.sin(2 * math.pi * time / self.period)
-            forces = [sum(force[axis] for force in self.forces.values()) for axis in range(3)]
-            forces[0] += swell
-            forces[2] -= self.weight_of_lines + HEAVE_STIFFNESS * self.position[2]
+            pulls = [sum(force[axis] for force in self.forces.values()) / self.mass for axis in range(3)]
+            pulls[0] += self.swell * math.sin(2 * math.pi * time / self.period)
+            pulls[2] -= self.weight_of_lines / self.mass + HEAVE_STIFFNESS * self.position[2]
             for axis in range(3):
-                acceleration = (forces[axis] - DAMPING[axis] * self.velocity[axis]) / self.mass
+                acceleration = pulls[axis] - DAMPING[axis] * self.velocity[axis]
                 self.position[axis] += h * self.velocity[axis] + 0.5 * h * h * acceleration
                 self.velocity[axis] += h * acceleration
         return True

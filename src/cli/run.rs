@@ -3,8 +3,10 @@
 use crate::cli::arguments::{RunArguments, Stop};
 use crate::cli::console::{self, on_terminal};
 use crate::cli::interrupt::Interrupt;
+use crate::cli::pack::BUILT_IN;
 use crate::cli::progress::Progress;
 use crate::error::Error;
+use crate::fmi::pack::{self, Libraries};
 use crate::report::page;
 use crate::report::record::Record;
 use crate::report::schedule::Schedule;
@@ -39,12 +41,26 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     record.ended_by = outcome.as_ref().err().cloned();
     tables::write(&files.summary, &tables::summary(&record))?;
     tables::write(&files.report, &page::html(&record))?;
+    let built_in_done = arguments.scene.is_none() && outcome.is_ok();
+    let fmu = if built_in_done { leave_fmu(&loaded, &arguments.options.output)? } else { String::new() };
     if !quiet {
         // Warnings of the scene were given before the run; what the run itself has to say comes after it.
         record.warnings().iter().skip(loaded.warnings.len()).for_each(|warning| console::warning(warning));
-        console::print(&printed_summary(&record, &files))?;
+        console::print(&(printed_summary(&record, &files) + &fmu))?;
     }
     Ok(outcome?)
+}
+
+/// Puts the built-in case's FMU beside its results; what the summary says of it. A program that was installed without the FMU's library
+/// has a note to give instead, not an error.
+fn leave_fmu(loaded: &Loaded, directory: &Path) -> Result<String, Error> {
+    let libraries = Libraries::beside_program();
+    if libraries.files.is_empty() {
+        return Ok("  no FMU: its library does not lie beside the program (`cargo build --release` puts it there)\n".to_owned());
+    }
+    let file = directory.join(BUILT_IN).with_extension("fmu");
+    pack::pack(&loaded.scene, BUILT_IN, &libraries, &file)?;
+    Ok(format!("  {}  this one goes into a co-simulation (FMI 2.0); its port for OSP lies beside it\n", file.display()))
 }
 
 /// From static equilibrium to the end of the schedule, or to the failure that ends the run earlier.

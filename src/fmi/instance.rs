@@ -460,6 +460,9 @@ impl Instance {
             Error::Value { place, value, allowed, .. } => {
                 Refusal::Parameter { name: self.interface.variable_at(&place), value, allowed }
             }
+            Error::Unsupported { place, feature, .. } => {
+                Refusal::Unsupported { name: self.interface.variable_at(&place), feature }
+            }
             Error::Reach(_) => Refusal::Reach(error),
             other => Refusal::Solver(other),
         }
@@ -535,7 +538,7 @@ impl Instance {
     }
 
     /// After a failure: goes as far as the solver came, or half of it, so that the master learns how far that is.
-    fn step_in_part(&mut self, plan: &Plan, segment: &Segment, until: f64, error: Error) -> Refusal {
+    fn step_in_part(&mut self, plan: &Plan, segment: &Segment, until: f64, mut error: Error) -> Refusal {
         let stuck_at = match &error {
             Error::Step(stuck) => stuck.time.min(until),
             _ => self.moment.clock,
@@ -550,6 +553,9 @@ impl Instance {
                 }
                 self.moment.phase = Phase::StepFailed;
                 self.moment.step_status = StepStatus::Discarded;
+                if let Error::Step(stuck) = &mut error {
+                    stuck.last_good_time = reached;
+                }
                 return Refusal::Discarded { until, reached, cause: error.to_string() };
             }
         }

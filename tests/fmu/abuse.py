@@ -180,6 +180,13 @@ assert line.set_real({"anchor.position.z": -200.0}) == OK
 refused(line, "anchor below the bed", line.get_real("tension")[0], "anchor")
 assert line.set_real({"anchor.position.z": -120.0, "line.length": 1.0}) == OK
 refused(line, "line of 1 m over 1190 m", line.get_real("tension")[0], "line.length")
+assert line.set_real({"line.length": 1200.0, "line.submerged_weight": 2000.0}) == OK
+refused(line, "heavier in water than in air", line.get_real("tension")[0], "line.submerged_weight", "weight in air")
+assert line.set_real({"line.submerged_weight": 1157.0, "fairlead.position.z": -130.0}) == OK
+refused(line, "fairlead below the bed", line.get_real("tension")[0], "fairlead.position")
+assert line.set_real({"fairlead.position.z": 0.0, "water.depth": 50.0}) == OK
+refused(line, "water less deep than the anchor", line.get_real("tension")[0], "anchor.position")
+assert line.set_real({"water.depth": 120.0, "line.length": 1.0}) == OK
 refused(line, "start with a line of 1 m", line.call("fmi2ExitInitializationMode"), "line.length")
 refused(line, "step after a failed start", line.do_step(0.0, 0.1), "after an error")
 refused(line, "state after an error", line.get_state()[0], "after an error")
@@ -316,9 +323,31 @@ assert line.set_state(state) == OK
 assert line.step(surge) == OK, line.log
 assert all(math.isfinite(value) for value in line.outputs())
 
+# --- A step that can be done in part: the fairlead leaves the line's reach on the way
+assert line.set_real({"fairlead.velocity.x": -1400.0}) == OK
+begin, (_, before) = line.time, line.get_state()
+refused(
+    line,
+    "fairlead out of reach after half a step",
+    line.do_step(begin, 1.0),
+    "done only up to",
+    "more than twice the 1200.0 m of line",
+    expected=DISCARD,
+)
+assert line.call("fmi2GetStatus", 0, c.byref(number)) == OK and number.value == DISCARD
+assert line.call("fmi2GetRealStatus", 2, c.byref(real)) == OK and begin < real.value < begin + 1.0
+reached = real.value
+refused(line, "step after a discarded step", line.do_step(reached, 0.1), "after a discarded step")
+refused(line, "inputs after a discarded step", line.set_real({"fairlead.velocity.x": 0.0}), "after a discarded step")
+assert line.get_real("tension")[1][0] > 1e8 and all(math.isfinite(value) for value in line.outputs())
+assert line.set_state(before) == OK
+assert line.do_step(begin, reached - begin) == OK, "the part that was done cannot be done as a step"
+assert line.set_state(before) == OK and line.set_real({"fairlead.velocity.x": 0.0}) == OK
+assert line.step(surge) == OK, line.log
+
 # --- The end
 assert line.call("fmi2Terminate") == OK
-refused(line, "step after the end", line.do_step(0.3, 0.1), "after fmi2Terminate")
+refused(line, "step after the end", line.do_step(line.time, 0.1), "after fmi2Terminate")
 refused(line, "set after the end", line.set_real({"fairlead.position.x": 0.0}), "after fmi2Terminate")
 assert line.get_real("tension")[0] == OK
 line.time = 0.2
