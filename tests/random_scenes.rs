@@ -99,11 +99,7 @@ fn scene(seed: u64) -> Scene {
             name: "line".to_string(),
             fairlead: [0.0, 0.0, fairlead_z],
             anchor: [span * cos, span * sin, -drop],
-            sections: vec![Section {
-                line_type: "rope".to_string(),
-                length,
-                elements: Some(random.between(5.0, 41.0) as usize),
-            }],
+            sections: vec![Section { line_type: "rope".to_string(), length, elements: Some(random.between(5.0, 41.0) as usize) }],
             attachments: Vec::new(),
         }],
         motion: Motion::Sinusoidal {

@@ -16,7 +16,8 @@ pub fn stiffnesses(mesh: &Mesh) -> Vec<f64> {
     let count = mesh.elements.len();
     (0..count)
         .map(|e| {
-            let beside = |other: Option<usize>| other.filter(|i| *i < count).map(|i| (mesh.properties_of(i), mesh.elements[i].length));
+            let beside =
+                |other: Option<usize>| other.filter(|i| *i < count).map(|i| (mesh.properties_of(i), mesh.elements[i].length));
             match (mesh.elements[e].is_joint(), beside(e.checked_sub(1)), beside(Some(e + 1))) {
                 (true, Some((a, l_a)), Some((b, l_b))) if stiff(a) && stiff(b) => STIFFER * (a.ei / l_a + b.ei / l_b),
                 _ => 0.0,

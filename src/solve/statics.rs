@@ -53,30 +53,38 @@ pub fn settle(line: &dyn Line, soften: &dyn Fn(f64) -> Box<dyn Line>, newton: &m
     if direct.converged() {
         return direct;
     }
-    let (stood, mut iterations) = (state.u.clone(), direct.iterations);
-    state.u.copy_from(&start);
-    let mesh = line.mesh();
-    let stiffest = mesh.sections.iter().map(|section| section.ea).fold(0.0, f64::max);
-    let mut limit = SOFT * mesh.total_weight().max(1e-6 * stiffest);
-    while limit < stiffest {
-        let soft = soften(limit);
-        let attempt = Attempt { iterations: 60, inertia: 1.0, mixed: false, allowed: 1e-3 };
-        iterations += walk.run(soft.as_ref(), newton, state, &attempt).iterations;
-        limit *= STIFFER;
+    let mut best = (direct, state.u.clone());
+    let mut iterations = direct.iterations;
+    for ladder in LADDERS {
+        state.u.copy_from(&start);
+        let reached = walk.climb(line, soften, newton, state, &ladder, &mut iterations);
+        if reached.judged().converged() {
+            return Balance { iterations, ..reached.judged() };
+        }
+        if reached.residual < best.0.residual {
+            best = (reached, state.u.clone());
+        }
     }
-    let last = walk.run(line, newton, state, &Attempt { iterations: 400, inertia: 1.0, mixed: false, allowed: AIMED });
-    iterations += last.iterations;
-    if last.converged() || last.residual < direct.residual {
-        return Balance { iterations, ..last.judged() };
-    }
-    state.u.copy_from(&stood);
-    Balance { iterations, ..direct.judged() }
+    state.u.copy_from(&best.1);
+    Balance { iterations, ..best.0.judged() }
 }
 
-/// EA of the first softened line, as a multiple of the line's weight.
-const SOFT: f64 = 10.0;
-/// Ratio of EA between softened lines.
-const STIFFER: f64 = 10.0;
+/// Ways to stiffen a softened line step by step.
+struct Ladder {
+    /// EA of the first line, as a multiple of the line's weight.
+    softest: f64,
+    /// Ratio of EA between lines.
+    ratio: f64,
+    /// Iterations on each line, and on the last.
+    iterations: [usize; 2],
+    /// First μ on each line, as a multiple of weight / (mass · length).
+    inertia: f64,
+}
+
+const LADDERS: [Ladder; 2] = [
+    Ladder { softest: 10.0, ratio: 10.0, iterations: [60, 400], inertia: 1.0 },
+    Ladder { softest: 3.0, ratio: 3.0, iterations: [80, 600], inertia: 30.0 },
+];
 
 /// One way to walk to equilibrium.
 struct Attempt {
@@ -102,6 +110,32 @@ impl Walk {
     fn new(line: &dyn Line) -> Walk {
         let field = || Field::new(line.mesh().nodes());
         Walk { residual: field(), tension: vec![0.0; 3 * line.mesh().elements.len()], from: field(), step: field() }
+    }
+
+    /// Settles a softened line, then stiffer ones, then the line itself.
+    fn climb(
+        &mut self,
+        line: &dyn Line,
+        soften: &dyn Fn(f64) -> Box<dyn Line>,
+        newton: &mut Newton,
+        state: &mut State,
+        ladder: &Ladder,
+        iterations: &mut usize,
+    ) -> Balance {
+        let mesh = line.mesh();
+        let [on_each, on_last] = ladder.iterations;
+        let stiffest = mesh.sections.iter().map(|section| section.ea).fold(0.0, f64::max);
+        let mut limit = ladder.softest * mesh.total_weight().max(1e-6 * stiffest);
+        while limit < stiffest {
+            let soft = soften(limit);
+            let attempt = Attempt { iterations: on_each, inertia: ladder.inertia, mixed: false, allowed: 1e-3 };
+            *iterations += self.run(soft.as_ref(), newton, state, &attempt).iterations;
+            limit *= ladder.ratio;
+        }
+        let attempt = Attempt { iterations: on_last, inertia: ladder.inertia, mixed: false, allowed: AIMED };
+        let balance = self.run(line, newton, state, &attempt);
+        *iterations += balance.iterations;
+        balance
     }
 
     fn run(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
