@@ -9,10 +9,12 @@ use serde::Serialize;
 /// Most rows a page holds times the number of lines.
 const ROWS: usize = 24_000;
 /// Most nodes a page holds, over all lines and snapshots.
-const NODES: usize = 60_000;
+const NODES: usize = 45_000;
 /// Quanta across the largest value of a kind: six digits for curves one can zoom into, five for shapes.
 const CURVE_QUANTA: f64 = 1.0e6;
 const SHAPE_QUANTA: f64 = 1.0e5;
+/// Quanta across the components of a unit tangent.
+const TANGENT_QUANTA: f64 = 1.0e4;
 
 /// The data as JSON text.
 pub struct PageData {
@@ -28,6 +30,7 @@ struct Data<'a> {
     length_decimals: usize,
     length_quantum: f64,
     force_quantum: f64,
+    tangent_quantum: f64,
     bed: Bed,
     time_decimals: usize,
     time: Vec<f64>,
@@ -81,10 +84,12 @@ struct Column {
     v: Vec<Option<i64>>,
 }
 
-/// A state: positions x0, y0, z0, x1, … in quanta of length, tensions in quanta of force.
+/// A state: positions x0, y0, z0, x1, … in quanta of length, unit tangents likewise, tensions in quanta of force. Elements are long
+/// and curved; without tangents they would be drawn with corners.
 #[derive(Serialize)]
 struct Shape {
     p: Vec<i64>,
+    d: Vec<i64>,
     t: Vec<i64>,
 }
 
@@ -103,6 +108,7 @@ pub fn json(record: &Record, unit: ForceUnit) -> PageData {
         length_decimals: if extent < 10.0 { 4 } else { 2 },
         length_quantum: quanta.length,
         force_quantum: quanta.force,
+        tangent_quantum: 1.0 / TANGENT_QUANTA,
         bed: Bed { depth: record.scene.environment.depth, slope },
         time_decimals: decimals(record.scene.run.output_step),
         time: rows.iter().map(|row| rounded(record.times[*row])).collect(),
@@ -154,8 +160,10 @@ fn touchdowns(record: &Record, index: usize, snapshots: &[usize]) -> Vec<Option<
 
 fn shape(nodes: &[NodeOutput], quanta: &Quanta) -> Shape {
     let length = |value: f64| (value / quanta.length).round() as i64;
+    let tangent = |value: f64| (value * TANGENT_QUANTA).round() as i64;
     Shape {
         p: nodes.iter().flat_map(|node| [node.position.x, node.position.y, node.position.z].map(length)).collect(),
+        d: nodes.iter().flat_map(|node| [node.tangent.x, node.tangent.y, node.tangent.z].map(tangent)).collect(),
         t: nodes.iter().map(|node| (node.tension / quanta.force).round() as i64).collect(),
     }
 }

@@ -10,9 +10,10 @@ const lines = data.lines.map((line, index) => ({
   shapes: line.shapes.map(shape),
 }));
 
-// One state of a line: flat positions x0, y0, z0, x1, … and the tension of each node.
-function shape({ p, t }) {
-  return { p: Float64Array.from(p, n => n * data.length_quantum), t: Float64Array.from(t, n => n * data.force_quantum) };
+// One state of a line: flat positions x0, y0, z0, x1, … and unit tangents alike, and the tension of each node.
+function shape({ p, d, t }) {
+  const times = (list, quantum) => Float64Array.from(list, n => n * quantum);
+  return { p: times(p, data.length_quantum), d: times(d, data.tangent_quantum), t: times(t, data.force_quantum) };
 }
 
 // Lines whose equilibrium is known; a run that failed in statics knows some only.
@@ -31,17 +32,24 @@ function stateAt(line, time) {
   const [a, b] = [line.touchdown[i], line.touchdown[j]];
   return {
     p: blend(line.shapes[i].p, line.shapes[j].p),
+    d: blend(line.shapes[i].d, line.shapes[j].d),
     t: blend(line.shapes[i].t, line.shapes[j].t),
     touchdown: a === null || b === null ? null : a + w * (b - a),
   };
 }
 
+// Position within element j of a state, at the share w of its length: the cubic through both nodes along their tangents.
+function within(line, { p, d }, j, w) {
+  const h = line.s[j + 1] - line.s[j];
+  const [b, e, f] = [w * w * (3 - 2 * w), w * (1 - w) ** 2 * h, w * w * (w - 1) * h];
+  return [3 * j, 3 * j + 1, 3 * j + 2].map(k => p[k] + b * (p[k + 3] - p[k]) + e * d[k] + f * d[k + 3]);
+}
+
 // Position on a state at an arc length.
 function pointAt(line, state, s) {
-  let j = line.s.findIndex(t => t >= s);
-  if (j < 1) j = j < 0 ? line.s.length - 1 : 1;
-  const w = (s - line.s[j - 1]) / (line.s[j] - line.s[j - 1]);
-  return [0, 1, 2].map(k => state.p[3 * j - 3 + k] + w * (state.p[3 * j + k] - state.p[3 * j - 3 + k]));
+  const next = line.s.findIndex(t => t >= s);
+  const j = next < 0 ? line.s.length - 2 : Math.max(next - 1, 0);
+  return within(line, state, j, (s - line.s[j]) / (line.s[j + 1] - line.s[j]));
 }
 
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();

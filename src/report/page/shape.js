@@ -1,5 +1,6 @@
 // The line in space, seen from the side and from above, on canvases of our own.
 const MARGIN = { left: 62, right: 14, top: 10, bottom: 36 };
+const PIECES = 150;
 const STRETCHES = [1, 1.5, 2, 3, 4, 5, 8, 10, 15, 20, 30, 40, 50, 80, 100, 150, 200, 300, 500];
 
 // Vertical planes to look at: those of the lines, and those of the axes.
@@ -117,16 +118,31 @@ function polyline(c, view, p, project) {
   c.stroke();
 }
 
-function drawLine(c, view, state, project) {
-  c.lineWidth = 3;
-  for (let k = 0; k + 1 < state.t.length; k += 1) {
-    const [a, b] = [3 * k, 3 * k + 3].map(j => project(state.p[j], state.p[j + 1], state.p[j + 2]));
-    c.strokeStyle = tensionColor((state.t[k] + state.t[k + 1]) / 2);
-    c.beginPath();
-    c.moveTo(view.x(a[0]), view.y(a[1]));
-    c.lineTo(view.x(b[0]), view.y(b[1]));
-    c.stroke();
+// The line in pieces short enough to look curved: their ends one after the other, each with the tension there.
+function curve(line, state) {
+  const points = [{ at: state.p.slice(0, 3), t: state.t[0] }];
+  for (let j = 0; j + 1 < line.s.length; j += 1) {
+    const pieces = Math.max(Math.ceil(PIECES * (line.s[j + 1] - line.s[j]) / line.length), 2);
+    for (let k = 1; k <= pieces; k += 1) {
+      const w = k / pieces;
+      points.push({ at: within(line, state, j, w), t: state.t[j] + w * (state.t[j + 1] - state.t[j]) });
+    }
   }
+  return points;
+}
+
+function drawLine(c, view, points, project) {
+  c.lineWidth = 3;
+  points.slice(1).forEach((b, k) => {
+    const a = points[k];
+    c.strokeStyle = tensionColor((a.t + b.t) / 2);
+    c.beginPath();
+    for (const { at } of [a, b]) {
+      const [u, v] = project(...at);
+      c.lineTo(view.x(u), view.y(v));
+    }
+    c.stroke();
+  });
 }
 
 function drawSpot(c, view, point, project, kind) {
@@ -149,14 +165,14 @@ function drawLines(c, view, states, project) {
     c.setLineDash([6, 5]);
     c.strokeStyle = css("--ghost");
     c.lineWidth = 1.5;
-    polyline(c, view, line.still.p, project);
+    polyline(c, view, line.course, project);
     c.setLineDash([]);
     c.strokeStyle = css("--faint");
     c.lineWidth = 1.25;
     polyline(c, view, states[i].path, project);
   });
   drawn.forEach((line, i) => {
-    drawLine(c, view, states[i], project);
+    drawLine(c, view, curve(line, states[i]), project);
     const last = line.s.length - 1;
     if (states[i].touchdown !== null) drawSpot(c, view, pointAt(line, states[i], states[i].touchdown), project, "touchdown");
     drawSpot(c, view, states[i].p.slice(3 * last), project, "anchor");
@@ -177,18 +193,19 @@ function drawName(c, view, line, anchor, project) {
 
 // A state with its way from equilibrium drawn `factor` times as long, and the fairlead's path likewise.
 function magnified(line, state, factor) {
-  const p = state.p.map((n, k) => line.still.p[k] + factor * (n - line.still.p[k]));
+  const [p, d] = ["p", "d"].map(name => state[name].map((n, k) => line.still[name][k] + factor * (n - line.still[name][k])));
   const { x, y, z } = line.rows;
   const start = line.still.p.slice(0, 3);
   const path = new Float64Array(3 * x.length);
   x.forEach((_, i) => [x[i], y[i], z[i]].forEach((n, k) => { path[3 * i + k] = start[k] + factor * (n - start[k]); }));
-  return { ...state, p, path };
+  return { ...state, p, d, path };
 }
 
 // Both views in a plane: what they show is decided once, then drawn for any time.
 class Shape {
   constructor(side, plan) {
     Object.assign(this, { side, plan, plane: planes()[0], equal: false, factor: 1 });
+    for (const line of drawn) line.course = Float64Array.from(curve(line, line.still).flatMap(({ at }) => [...at]));
   }
 
   // Fits the scales to all that will be seen; to be called when width, plane, scales or magnification change.

@@ -1,0 +1,135 @@
+//! The scenes of examples/ and the answers that their titles name.
+
+mod support;
+
+use moorline::scene::read::{self, Loaded};
+use moorline::solve::motion::Path;
+use moorline::solve::simulation::{Outputs, Simulation};
+use std::f64::consts::TAU;
+use support::{GRAVITY, Hanging, Piece, assert_close, bisect};
+
+fn load(name: &str) -> Loaded {
+    let path = format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"));
+    read::load(std::path::Path::new(&path), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Line `index` of a scene in equilibrium.
+fn settled(scene: &Loaded, index: usize) -> Simulation {
+    let mut line = Simulation::new(&scene.scene, index).unwrap_or_else(|error| panic!("{error}"));
+    let fairlead = Path::of_scene(scene, index).at(0.0).position;
+    line.settle(fairlead, 0.0).unwrap_or_else(|error| panic!("{error}"));
+    line
+}
+
+/// What the only line of a scene does, at every output time.
+fn history(scene: &Loaded) -> Vec<Outputs> {
+    let (mut line, path) = (settled(scene, 0), Path::of_scene(scene, 0));
+    let rows = (scene.scene.run.duration / scene.scene.run.output_step).round() as usize;
+    let mut outputs = vec![line.outputs()];
+    for row in 1..=rows {
+        line.advance(row as f64 * scene.scene.run.output_step, &path).unwrap_or_else(|error| panic!("{error}"));
+        outputs.push(line.outputs());
+    }
+    outputs
+}
+
+/// Source: Hooke's law at rest, EA (d/L - 1); in motion the elastic bar held at one end and moved by a sin ωt at the other, whose
+/// force there is EA/L · kL cot kL · a sin ωt. The last of four periods.
+#[test]
+fn taut_polyester_is_an_elastic_bar() {
+    let (ea, mass, length, distance, amplitude) = (6.0e7, 26.0, 1470.0, 1500.0, 5.0);
+    let rows = history(&load("taut-polyester.json"));
+    let rest = ea * (distance / length - 1.0);
+    assert_close("tension at rest", rows[0].tension, rest, 1e-9);
+    let kl = TAU / 20.0 * (mass / ea as f64).sqrt() * length;
+    let dynamic = ea / length * amplitude * kl / kl.tan();
+    let last = || rows[600..].iter().map(|row| row.tension);
+    assert_close("largest", last().fold(f64::MIN, f64::max) - rest, dynamic, 2e-3);
+    assert_close("smallest", rest - last().fold(f64::MAX, f64::min), dynamic, 2e-3);
+}
+
+/// Source: elastic catenary in closed form (Irvine 1981).
+#[test]
+fn slack_catenary_hangs_as_irvine_says() {
+    let weight = 135.35 * GRAVITY - 1025.0 * GRAVITY * TAU / 8.0 * 0.076 * 0.076;
+    let piece = [Piece { length: 180.0, weight, ea: 5.0e8 }];
+    let exact = Hanging::spanning(&piece, 100.0, 20.0);
+    let outputs = settled(&load("slack-catenary.json"), 0).outputs();
+    assert_close("tension at the fairlead", outputs.tension, exact.tension(&piece, 180.0), 1e-4);
+    assert_close("tension at the anchor", outputs.anchor_tension, exact.tension(&piece, 0.0), 1e-4);
+    assert_close("horizontal force", outputs.force.x, exact.horizontal, 3e-4);
+}
+
+/// Source: a line without weight across a current, drag on its normal velocity only: T is constant, and with φ the angle from the
+/// straight way T dφ/ds = f cos²φ, so tan φ = f s/T. This is the catenary with a = T/f, f = ½ ρ d Cn V². Half the speed, a quarter of f.
+#[test]
+fn two_lines_in_a_current_are_catenaries_of_constant_tension() {
+    let scene = load("two-lines-in-current.json");
+    let (distance, length) = (100.0, 110.0);
+    let a = bisect(1.0, 1.0e4, |a| length - 2.0 * a * (0.5 * distance / a).sinh());
+    for (index, speed) in [1.0_f64, 0.5].into_iter().enumerate() {
+        let exact = 0.5 * 1025.0 * 0.1 * 1.2 * speed * speed * a;
+        let line = settled(&scene, index);
+        assert_close("tension", line.outputs().tension, exact, 1e-3);
+        for node in line.nodes() {
+            assert!((node.tension / exact - 1.0).abs() < 5e-3, "s = {}: {} for {exact}", node.s, node.tension);
+        }
+        let drift = a * ((0.5 * distance / a).cosh() - 1.0);
+        let middle = line.nodes().iter().map(|node| node.position.x).fold(0.0, f64::max);
+        assert!(middle <= drift * 1.001 && middle > 0.97 * drift, "deepest node {middle} for {drift}");
+    }
+}
+
+/// Source: tensioned beam with pinned ends under uniform load (Timoshenko), small slopes; q = ½ ρ d Cn V², T as found. Bending takes
+/// 14 % off the drift of a rope.
+#[test]
+fn riser_bends_as_a_tensioned_beam() {
+    let line = settled(&load("riser-with-bending.json"), 0);
+    let (length, ei, q, tension) = (100.0, 1.0e8, 0.5 * 1025.0 * 0.5 * 1.2 * 0.8 * 0.8, line.outputs().tension);
+    let k = f64::sqrt(tension / ei);
+    let beam = |x: f64| {
+        let bent = 1.0 - f64::cosh(k * (0.5 * length - x)) / f64::cosh(0.5 * k * length);
+        q * x * (length - x) / (2.0 * tension) - q * ei / (tension * tension) * bent
+    };
+    let mut compared = 0;
+    for node in line.nodes().iter().filter(|node| node.s > 20.0 && node.s < 80.0) {
+        assert_close(&format!("drift at s = {:.1}", node.s), node.position.x, beam(-10.0 - node.position.z), 2e-3);
+        compared += 1;
+    }
+    assert!(compared >= 4, "{compared} nodes");
+    assert_close("end force across", line.outputs().force.x, 0.5 * q * length, 2e-3);
+}
+
+/// Source: elastic wave in a bar, ΔT = v √(EA m) behind the front; the anchor sees it after L √(m/EA) = 0.52 s, doubled by its
+/// reflection. The fairlead is at full speed from t = 0.54 s on. Means over the plateaus; the front itself rings a little.
+#[test]
+fn snapping_chain_leaps_by_the_impedance() {
+    let (ea, mass, speed, length) = (5.0e8, 135.35_f64, 2.0, 999.9);
+    let rows = history(&load("snapping-chain.json"));
+    let leap = speed * (ea * mass).sqrt();
+    let arrival = length * (mass / ea).sqrt();
+    let mean = |from: f64, until: f64, of: fn(&Outputs) -> f64| {
+        let here: Vec<f64> = rows.iter().filter(|row| row.time >= from && row.time <= until).map(of).collect();
+        here.iter().sum::<f64>() / here.len() as f64 - of(&rows[0])
+    };
+    assert_close("at the fairlead", mean(0.7, 0.5 + 2.0 * arrival, |row| row.tension), leap, 1e-2);
+    assert_close("at the anchor", mean(0.7 + arrival, 0.5 + 3.0 * arrival, |row| row.anchor_tension), 2.0 * leap, 1e-2);
+    let before = mean(0.0, 0.4 + arrival, |row| row.anchor_tension) / leap;
+    assert!(before.abs() < 1e-2, "{before} of the leap at the anchor before the wave is there");
+}
+
+/// Every scene of examples/ is tested here; the built-in case in tests/published.rs.
+#[test]
+fn every_example_has_its_answer() {
+    let tests = include_str!("examples.rs");
+    let directory = format!("{}/examples", env!("CARGO_MANIFEST_DIR"));
+    let names: Vec<String> = std::fs::read_dir(directory)
+        .expect("examples/")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".json") && name != "lindahl-sjoberg.json")
+        .collect();
+    assert!(names.len() >= 5, "{names:?}");
+    for name in names {
+        assert!(tests.contains(&format!("load(\"{name}\")")), "{name} has no test");
+    }
+}
