@@ -172,6 +172,7 @@ impl Record {
         self.lines.iter().fold(Counters::default(), |sum, line| Counters {
             steps: sum.steps + line.counters.steps,
             rejected_steps: sum.rejected_steps + line.counters.rejected_steps,
+            unresolved_steps: sum.unresolved_steps + line.counters.unresolved_steps,
             newton_iterations: sum.newton_iterations + line.counters.newton_iterations,
             factorisations: sum.factorisations + line.counters.factorisations,
             element_iterations: sum.element_iterations + line.counters.element_iterations,
@@ -191,10 +192,11 @@ impl Record {
         ForceUnit::for_largest(rows.chain(statics).fold(0.0, f64::max))
     }
 
-    /// All warnings: those of the scene, then breaking loads exceeded.
+    /// All warnings: those of the scene, then breaking loads exceeded, then steps whose error was above the tolerance.
     pub fn warnings(&self) -> Vec<String> {
         let overloads = self.lines.iter().flat_map(|line| line.parts.iter().filter_map(|part| part.warning(&line.name)));
-        self.scene_warnings.iter().cloned().chain(overloads).collect()
+        let unresolved = self.lines.iter().filter_map(LineRecord::unresolved);
+        self.scene_warnings.iter().cloned().chain(overloads).chain(unresolved).collect()
     }
 }
 
@@ -212,6 +214,18 @@ impl LineRecord {
             counters: Counters::default(),
             parts: parts_with_breaking_load(scene, index, &scene.line_types),
         }
+    }
+
+    /// Says so where the tolerance was not met.
+    fn unresolved(&self) -> Option<String> {
+        let Counters { steps, unresolved_steps, .. } = self.counters;
+        (unresolved_steps > 0).then(|| {
+            format!(
+                "line \"{}\": {unresolved_steps} of {steps} steps did not meet the tolerance: the line snaps or rings faster than the \
+                 finest step resolves. Read peaks as statistics; more axial damping or a smaller solver.max_step resolves more.",
+                self.name
+            )
+        })
     }
 
     /// Statistics of one output over the rows, such as `|row| row.tension`; `None` without rows.

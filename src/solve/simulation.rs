@@ -38,6 +38,8 @@ pub struct Counters {
     pub steps: usize,
     /// Rejected time steps.
     pub rejected_steps: usize,
+    /// Accepted steps of the finest length whose estimated error was above the tolerance.
+    pub unresolved_steps: usize,
     /// Newton iterations.
     pub newton_iterations: usize,
     /// Factorisations of the tangent.
@@ -451,6 +453,7 @@ impl Simulation {
         Counters {
             steps: tally.steps,
             rejected_steps: tally.rejected,
+            unresolved_steps: tally.unresolved,
             newton_iterations: effort.iterations,
             factorisations: effort.factorisations,
             element_iterations: effort.iterations * self.elements(),
