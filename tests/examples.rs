@@ -41,7 +41,7 @@ fn taut_polyester_is_an_elastic_bar() {
     let rows = history(&load("taut-polyester.json"));
     let rest = ea * (distance / length - 1.0);
     assert_close("tension at rest", rows[0].tension, rest, 1e-9);
-    let kl = TAU / 20.0 * (mass / ea).sqrt() * length;
+    let kl = TAU / 20.0 * f64::sqrt(mass / ea) * length;
     let dynamic = ea / length * amplitude * kl / kl.tan();
     let last = || rows[600..].iter().map(|row| row.tension);
     assert_close("largest", last().fold(f64::MIN, f64::max) - rest, dynamic, 2e-3);

@@ -1,6 +1,8 @@
 //! Bending stiffness (Garrett 1982; Ma & Webster 1994, eq. 2.5).
 //!
-//!     δW = ∫ EI r″·δr″ ds
+//! ```text
+//! δW = ∫ EI r″·δr″ ds
+//! ```
 //!
 //! r″ curvature vector by unstretched arc length [1/m], EI [N·m²]. Exact for an inextensible rod; for a stretched one the
 //! difference is of the order of the strain. The tangent EI is constant.

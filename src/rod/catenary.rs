@@ -2,8 +2,10 @@
 //!
 //! s from the anchor [m], H horizontal tension [N], V(s) = V_A + w s its vertical part [N], w weight in water [N/m]:
 //!
-//!     x(s) = H s/EA + (H/w) [asinh(V/H) - asinh(V_A/H)]
-//!     z(s) = (V_A s + w s²/2)/EA + (1/w) [√(H² + V²) - √(H² + V_A²)]
+//! ```text
+//! x(s) = H s/EA + (H/w) [asinh(V/H) - asinh(V_A/H)]
+//! z(s) = (V_A s + w s²/2)/EA + (1/w) [√(H² + V²) - √(H² + V_A²)]
+//! ```
 //!
 //! On the bed V = 0 and x' = 1 + H/EA. A line too long for any H > 0 hangs in vertical legs and lies on the bed in an arc.
 //! A line that floats is the same problem upside down, with the water surface as its bed.

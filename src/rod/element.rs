@@ -1,6 +1,8 @@
 //! The loop over the elements: gather, Gauss points, sum of loads, scatter. It has no physics of its own.
 //!
-//!     R_k = Σ_g w_g L [ N_k X + N′_k n + N″_k EI r″ ],   X = m r̈ + w e_z - f
+//! ```text
+//! R_k = Σ_g w_g L [ N_k X + N′_k n + N″_k EI r″ ],   X = m r̈ + w e_z - f
+//! ```
 //!
 //! R residual [N] (positions) and [N·m] (slopes): the force that must be applied from outside for the motion to be as it is.
 //! N_k Hermite shape functions, X load per length [N/m], n axial force [N], f force of the water [N/m].

@@ -1,6 +1,8 @@
 //! A joint between two sections that both have bending stiffness: the slopes may differ in size, not in direction.
 //!
-//!     E = ½ κ |t_i - t_j|²,   κ = 10⁴ (EI_i/l_i + EI_j/l_j)
+//! ```text
+//! E = ½ κ |t_i - t_j|²,   κ = 10⁴ (EI_i/l_i + EI_j/l_j)
+//! ```
 //!
 //! t_i, t_j unit tangents on the two sides [-], l lengths of the elements beside the joint [m], κ rotational stiffness [N·m]. The
 //! joint bends as much as a ten-thousandth of the elements beside it.

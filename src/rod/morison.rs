@@ -1,8 +1,10 @@
 //! Force of the water on a moving line (Morison), and its tangent.
 //!
-//!     f = kn |qn| qn + kt |qt| qt t - an (a - (t·a) t) - at (t·a) t
-//!     q = V - ṙ,  qt = t·q,  qn = q - qt t,  t = r′/|r′|
-//!     kn = ½ ρ d Cn,  kt = ½ ρ π d Ct,  an = ρ (π/4) d² Cmn,  at = ρ (π/4) d² Cmt
+//! ```text
+//! f = kn |qn| qn + kt |qt| qt t - an (a - (t·a) t) - at (t·a) t
+//! q = V - ṙ,  qt = t·q,  qn = q - qt t,  t = r′/|r′|
+//! kn = ½ ρ d Cn,  kt = ½ ρ π d Ct,  an = ρ (π/4) d² Cmn,  at = ρ (π/4) d² Cmt
+//! ```
 //!
 //! f force on the line per unstretched length [N/m], V velocity of the water [m/s], a = r̈ [m/s²]. The water's own acceleration is
 //! zero here (current only). Projector with the unit tangent: the 1994 report's I - r′r′ᵀ makes a stretched line swim.

@@ -1,6 +1,8 @@
 //! The seabed: a plane bed of springs and dampers that pushes, never pulls.
 //!
-//!     f = max(0, k p - c v_n min(1, p/δ)) N,   p = δ_0 - g > 0,   g = N·(r - r_b)
+//! ```text
+//! f = max(0, k p - c v_n min(1, p/δ)) N,   p = δ_0 - g > 0,   g = N·(r - r_b)
+//! ```
 //!
 //! N unit normal of the bed, upwards; g height above it [m]; v_n = N·ṙ [m/s]; k stiffness [Pa]; c damping [Pa·s]; f force on
 //! the line per unstretched length [N/m]. Contact starts δ_0 = w N_z / k above the bed, so that a line at rest lies exactly on
@@ -8,7 +10,9 @@
 //! with four Gauss points, which are exact for the spring. Where the bed has no damping and an element touches all along, the
 //! push on its ends is linear in p there:
 //!
-//!     R = -k L M p N,   M_ij = ∫ N_i N_j dx
+//! ```text
+//! R = -k L M p N,   M_ij = ∫ N_i N_j dx
+//! ```
 
 use crate::algebra::lanes::Triple;
 use crate::algebra::lanes::{MOST_LANES, Real, padded};

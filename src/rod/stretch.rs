@@ -1,7 +1,9 @@
 //! Axial force of the line at a point, and its tangent.
 //!
-//!     δW = ∫ n·δr′ ds,   n = T t,   T = EA (e + C ė),   e = |r′| - 1,   t = r′/|r′|            (`Exact`, Hooke in engineering strain)
-//!                        n = λ r′,  λ = EA (g + C ġ),   g = (r′·r′ - 1)/2                       (`Report`, Ma & Webster 1994, eq. 2.11)
+//! ```text
+//! δW = ∫ n·δr′ ds,   n = T t,   T = EA (e + C ė),   e = |r′| - 1,   t = r′/|r′|            (`Exact`, Hooke in engineering strain)
+//!                    n = λ r′,  λ = EA (g + C ġ),   g = (r′·r′ - 1)/2                       (`Report`, Ma & Webster 1994, eq. 2.11)
+//! ```
 //!
 //! r′ slope by unstretched arc length [-], e strain [-], ė its rate [1/s], T effective tension [N] positive pulling, EA [N],
 //! C Kelvin–Voigt time constant [s]. A line without bending stiffness carries no compression: T ≥ 0 (`floor` = 0); the
@@ -10,7 +12,9 @@
 //! An element that goes slack is bunched: its slopes have mass but no stiffness and would keep the energy of the last snap for
 //! ever. What a real line loses there in folding, a bounded friction takes up,
 //!
-//!     n_s = f_s b(e) ṙ′ / √(ė_0² + ṙ′·ṙ′),   b = min(1, max(0, -e/e_0)),   e_0 = 0.01, ė_0 = 0.1 1/s,
+//! ```text
+//! n_s = f_s b(e) ṙ′ / √(ė_0² + ṙ′·ṙ′),   b = min(1, max(0, -e/e_0)),   e_0 = 0.01, ė_0 = 0.1 1/s,
+//! ```
 //!
 //! f_s a twentieth of the element's weight in air, so that it vanishes with the mesh.
 

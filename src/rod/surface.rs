@@ -1,6 +1,8 @@
 //! The water surface: how much of the line's section is wet.
 //!
-//!     φ(z) = min(1, max(0, ½ - z/d))
+//! ```text
+//! φ(z) = min(1, max(0, ½ - z/d))
+//! ```
 //!
 //! z height of the centreline above the water [m], d diameter [m], φ wet fraction [-]. Buoyancy, drag and added mass are φ times
 //! those under water; a floating line so finds its draught. On elements that are not certainly all wet, the water's force is

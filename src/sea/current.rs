@@ -1,6 +1,8 @@
 //! Current: velocity of the water, piecewise linear in z and constant outside the table.
 //!
-//!     V(z) = V_0 + Σ_k S_k · clamp(z - z_k, 0, z_{k+1} - z_k),   S_k = (V_{k+1} - V_k) / (z_{k+1} - z_k)
+//! ```text
+//! V(z) = V_0 + Σ_k S_k · clamp(z - z_k, 0, z_{k+1} - z_k),   S_k = (V_{k+1} - V_k) / (z_{k+1} - z_k)
+//! ```
 //!
 //! z up from still water [m], V [m/s], rows sorted upwards. The sum has no branches, so it runs on several elements at once.
 

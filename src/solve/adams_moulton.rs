@@ -1,6 +1,8 @@
 //! The trapezoidal Adams–Moulton step, converged.
 //!
-//!     v₁ = v₀ + h/2 (a₀ + a₁),   u₁ = u₀ + h/2 (v₀ + v₁),   R(u₁, v₁, a₁, t₁) = 0
+//! ```text
+//! v₁ = v₀ + h/2 (a₀ + a₁),   u₁ = u₀ + h/2 (v₀ + v₁),   R(u₁, v₁, a₁, t₁) = 0
+//! ```
 //!
 //! Second order, no numerical damping. Local error of u: h²/12 (a₁ - a₀), filtered by the stage matrix.
 

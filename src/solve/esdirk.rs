@@ -2,7 +2,9 @@
 //!
 //! With V_j, A_j the rates at the stages, stage i solves for x = A_i
 //!
-//!     V = v₀ + h Σ_{j<i} a_ij A_j + γh x,   U = u₀ + h Σ_{j<i} a_ij V_j + γh V,   R(U, V, x, t₀ + c_i h) = 0
+//! ```text
+//! V = v₀ + h Σ_{j<i} a_ij A_j + γh x,   U = u₀ + h Σ_{j<i} a_ij V_j + γh V,   R(U, V, x, t₀ + c_i h) = 0
+//! ```
 //!
 //! so all stages share one matrix. The last stage is the end of the step. Error of u: h Σ (b_i - b̂_i) V_i, filtered
 //! by the stage matrix.

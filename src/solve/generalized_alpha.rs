@@ -1,8 +1,10 @@
 //! The generalised-alpha step (Chung & Hulbert 1993) with spectral radius ρ = 0.6 at infinite frequency.
 //!
-//!     R((1-α_f) u₁ + α_f u₀, (1-α_f) v₁ + α_f v₀, (1-α_m) a₁ + α_m a₀, t₁ - α_f h) = 0
-//!     u₁ = u₀ + h v₀ + h² [(½-β) a₀ + β a₁],   v₁ = v₀ + h [(1-γ) a₀ + γ a₁]
-//!     α_m = (2ρ-1)/(ρ+1), α_f = ρ/(ρ+1), γ = ½ - α_m + α_f, β = ¼ (1 - α_m + α_f)²
+//! ```text
+//! R((1-α_f) u₁ + α_f u₀, (1-α_f) v₁ + α_f v₀, (1-α_m) a₁ + α_m a₀, t₁ - α_f h) = 0
+//! u₁ = u₀ + h v₀ + h² [(½-β) a₀ + β a₁],   v₁ = v₀ + h [(1-γ) a₀ + γ a₁]
+//! α_m = (2ρ-1)/(ρ+1), α_f = ρ/(ρ+1), γ = ½ - α_m + α_f, β = ¼ (1 - α_m + α_f)²
+//! ```
 //!
 //! The fairlead is exact at the ends of the step. Between them its position and velocity are blended as every other unknown, else the
 //! mismatch, of the order h², would strain the last element; its acceleration is that of the instant of the equation, t₁ - α_f h: blended

@@ -13,7 +13,7 @@ function planes() {
     const d = [dx / length, dy / length];
     if (Math.abs(d[0]) > 0.9999 || Math.abs(d[1]) > 0.9999) continue;
     const label = single ? "plane of the line" : `plane of ${line.name}`;
-    list.push({ label, d, u: "along the plane", v: "across the plane", spots: [line] });
+    list.push({ label, d, u: "along the plane", v: "across", spots: [line] });
   }
   const axes = [{ label: "x–z plane", d: [1, 0], u: "x", v: "y" }, { label: "y–z plane", d: [0, 1], u: "y", v: "−x" }];
   if (single) return drawn.length && Math.abs(lines[0].anchor[1] - lines[0].fairlead[1]) > Math.abs(lines[0].anchor[0] - lines[0].fairlead[0])
