@@ -76,7 +76,7 @@ fn scene(seed: u64) -> Scene {
     let drop = if random.share() < 0.8 { depth } else { depth * random.between(0.1, 1.0) };
     let fairlead_z = if random.share() < 0.7 { 0.0 } else { random.between(-0.5, 0.05) * drop };
     let span = (chord * chord - (drop + fairlead_z).powi(2)).max(0.0).sqrt();
-    let (sin, cos) = random.between(0.0, 6.28).sin_cos();
+    let (sin, cos) = random.between(0.0, std::f64::consts::TAU).sin_cos();
     let current = |random: &mut Random| {
         let velocity = random.triple(1.5);
         let row = |z, share: f64| CurrentPoint { z, velocity: [velocity[0] * share, velocity[1] * share, 0.0] };
