@@ -1,7 +1,7 @@
 //! moorline: the mooring line that a ship simulator plugs in.
 //!
 //! The map of the house. Each layer knows only what stands above it in this list:
-//! `error`, `algebra`, `scene`, `rod`, `solve`, `report`, `cli`.
+//! `error`, `algebra`, `scene`, `sea`, `rod`, `solve`, `report` and `fmi`, `cli`. `tests/house.rs` holds it to that.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

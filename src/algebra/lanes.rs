@@ -1,7 +1,7 @@
 //! The number type of the element loop: one f64, or several elements side by side.
 //!
 //! A kernel is written once over `Real`. `pulp::Arch` looks at the processor when the program starts and runs the kernel with as many
-//! lanes as it has: `Lanes<V4>` (AVX-512, 8), `Lanes<V3>` (AVX2 and FMA, 4), one on any other.
+//! lanes as it has: `Lanes<V3>` (AVX2 and FMA, 4), one on any other.
 
 use nalgebra::Vector3;
 use pulp::Simd;

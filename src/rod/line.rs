@@ -33,7 +33,7 @@ pub trait Line: Send + Sync {
     fn linear_tensions(&self, u: &Field, change: &Field, out: &mut [f64]);
     /// Tension at each Gauss point [N]; three per element.
     fn tensions(&self, u: &Field, v: &Field, out: &mut [f64]);
-    /// Force [N] that the fairlead side exerts on the anchor side at every node (so at the anchor: minus the force on the anchor).
+    /// Force [N] that the fairlead side exerts on the anchor side at every node (so at the anchor: the force of the line on it).
     fn node_forces(&self, at: &Motion, out: &mut [Vector3<f64>]);
     /// Force of the line on what holds its fairlead [N].
     fn end_force(&self, at: &Motion) -> Vector3<f64>;

@@ -161,7 +161,7 @@ impl At<'_> {
         }
         let moved = size(std::array::from_fn(|axis| row.position[axis] - before.position[axis]));
         if !(moved / step <= FASTEST) {
-            let value = format!("a move of {moved:.3} m in {step:.3e} s, {:.1} m/s,", moved / step);
+            let value = format!("a move of {moved:.3} m in {step} s, {:.1} m/s,", moved / step);
             return self.refuse(value, format!("a fairlead moves at most {FASTEST} m/s; is a unit or a sign wrong?"));
         }
         Ok(())
