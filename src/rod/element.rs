@@ -586,24 +586,28 @@ impl<W: Water> WithSimd for Inertia<'_, W> {
 
 /// Tension at the Gauss points of every element [N], three per element.
 pub fn tensions<S: Stretch>(table: &Table, u: &Field, v: &Field, out: &mut [f64]) {
-    for e in 0..table.len() {
-        let length = table.length_of(e);
-        let (ends, rates) = (Ends::gather(u, e, length), Ends::gather(v, e, length));
-        for (g, shape) in SHAPES3.iter().enumerate() {
-            let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
-            out[3 * e + g] = S::tension(&table.axial(e), &slope(&ends), &slope(&rates));
-        }
-    }
+    at_points(table, u, v, S::tension, out);
 }
 
 /// Tension at the Gauss points after a change of u, to first order in the change [N]: what the mixed method would carry on.
 pub fn linear_tensions<S: Stretch>(table: &Table, u: &Field, change: &Field, out: &mut [f64]) {
+    at_points(table, u, change, S::linear_tension, out);
+}
+
+/// A law of the slopes of two fields at the Gauss points of every element, three per element.
+fn at_points(
+    table: &Table,
+    u: &Field,
+    other: &Field,
+    law: impl Fn(&Axial<f64>, &Vector3<f64>, &Vector3<f64>) -> f64,
+    out: &mut [f64],
+) {
     for e in 0..table.len() {
         let length = table.length_of(e);
-        let (ends, changes) = (Ends::gather(u, e, length), Ends::gather(change, e, length));
+        let (ends, others) = (Ends::gather(u, e, length), Ends::gather(other, e, length));
         for (g, shape) in SHAPES3.iter().enumerate() {
             let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
-            out[3 * e + g] = S::linear_tension(&table.axial(e), &slope(&ends), &slope(&changes));
+            out[3 * e + g] = law(&table.axial(e), &slope(&ends), &slope(&others));
         }
     }
 }

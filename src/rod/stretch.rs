@@ -102,8 +102,6 @@ pub trait Stretch: Copy + Send + Sync + 'static {
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64;
     /// Change of the tension for a change of the slope, to first order, without the limit `floor` [N].
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64;
-    /// Strain energy per length [N] of the elastic part.
-    fn energy(law: &Axial<f64>, p: &Vector3<f64>) -> f64;
 }
 
 /// Hooke's law in engineering strain.
@@ -146,11 +144,6 @@ impl Stretch for Exact {
         let stretch = length(p);
         law.ea * (stretch - 1.0 + p.dot(change) / stretch)
     }
-
-    fn energy(law: &Axial<f64>, p: &Vector3<f64>) -> f64 {
-        let strain = length(p) - 1.0;
-        if law.ea * strain > law.floor { 0.5 * law.ea * strain * strain } else { 0.0 }
-    }
 }
 
 /// The 1994 report's law, linear in Green's strain.
@@ -185,10 +178,5 @@ impl Stretch for Report {
 
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
         law.ea * (0.5 * (p.dot(p) - 1.0) + p.dot(change))
-    }
-
-    fn energy(law: &Axial<f64>, p: &Vector3<f64>) -> f64 {
-        let strain = 0.5 * (p.dot(p) - 1.0);
-        if law.ea * strain > law.floor { 0.5 * law.ea * strain * strain } else { 0.0 }
     }
 }

@@ -264,16 +264,15 @@ impl Simulation {
         } else {
             return Ok(());
         };
-        let at = |time| Stuck {
+        Err(Error::Step(Box::new(Stuck {
             line: self.name.clone(),
-            time,
+            time: until,
             s: 0.0,
             zone: Zone::Fairlead,
             cause,
             fairlead_speed: to.velocity.norm(),
             last_good_time: self.moment.time,
-        };
-        Err(Error::Step(Box::new(at(until))))
+        })))
     }
 
     fn stuck(&self, failure: &Failure, path: &Path, last_good_time: f64) -> Stuck {
