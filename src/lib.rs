@@ -27,6 +27,7 @@ pub mod algebra {
     pub mod lanes;
     pub mod polynomial;
     pub mod shape;
+    pub mod tensor;
 }
 
 /// What the user said: plain data, read and checked. No nodes, no steps.
@@ -42,6 +43,7 @@ pub mod rod {
     pub mod bending;
     pub mod catenary;
     pub mod element;
+    pub mod element_tangent;
     pub mod grading;
     pub mod joint;
     pub mod line;

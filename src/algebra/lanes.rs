@@ -51,6 +51,11 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// 1 where self ≥ 0, else 0.
     fn step(self) -> Self;
+    /// 1 where self > 0, else 0.
+    #[inline(always)]
+    fn positive(self) -> Self {
+        -(-self).step() + 1.0
+    }
     /// Whether any lane is greater than zero.
     fn any_positive(self) -> bool;
 
@@ -233,6 +238,12 @@ impl<F: Real> Triple<F> {
     #[inline(always)]
     pub fn splat(cpu: F::Cpu, v: &Vector3<f64>) -> Self {
         Triple { x: F::splat(cpu, v.x), y: F::splat(cpu, v.y), z: F::splat(cpu, v.z) }
+    }
+
+    /// Consecutive vectors from place `at` of three rows.
+    #[inline(always)]
+    pub fn load(cpu: F::Cpu, [x, y, z]: [&[f64]; 3], at: usize) -> Self {
+        Triple { x: F::load(cpu, x, at), y: F::load(cpu, y, at), z: F::load(cpu, z, at) }
     }
 
     /// Zero.

@@ -78,6 +78,11 @@ impl Cubic {
             return Intervals::whole();
         }
         let mut parts = Intervals::default();
+        if let Some(cut) = self.only_crossing(level) {
+            let (from, to) = if self.0[0] >= level { (0.0, cut) } else { (cut, 1.0) };
+            parts.push(from, to);
+            return parts;
+        }
         let mut cuts = [0.0; 5];
         let count = 1 + self.crossings(level, &mut cuts[1..]);
         cuts[count] = 1.0;
@@ -97,6 +102,14 @@ impl Cubic {
             parts.push(start, 1.0);
         }
         parts
+    }
+
+    /// The crossing of `level`, where the signs of the control values tell that there is just one (Descartes).
+    fn only_crossing(&self, level: f64) -> Option<f64> {
+        let b = self.0.map(|value| value - level);
+        let changes = (0..3).filter(|k| (b[*k] < 0.0) != (b[*k + 1] < 0.0)).count();
+        let d = [3.0 * (b[1] - b[0]), 3.0 * (b[2] - b[1]), 3.0 * (b[3] - b[2])];
+        (changes == 1).then(|| Cubic(b).bracketed_root(0.0, 1.0, b[0] < 0.0, d))
     }
 
     /// Crossings of `level` in (0, 1) in rising order, at most 3; returns how many. Between neighbouring extrema the cubic is
@@ -125,7 +138,9 @@ impl Cubic {
     }
 
     fn bracketed_root(&self, mut x0: f64, mut x1: f64, rising: bool, d: [f64; 3]) -> f64 {
-        let mut x = 0.5 * (x0 + x1);
+        let (f0, f1) = (self.at(x0), self.at(x1));
+        let secant = x0 - f0 * (x1 - x0) / (f1 - f0);
+        let mut x = if secant > x0 && secant < x1 { secant } else { 0.5 * (x0 + x1) };
         for _ in 0..60 {
             let f = self.at(x);
             if (f < 0.0) == rising {
@@ -136,7 +151,12 @@ impl Cubic {
             let y = 1.0 - x;
             let slope = y * y * d[0] + 2.0 * y * x * d[1] + x * x * d[2];
             let newton = x - f / slope;
-            let next = if newton > x0 && newton < x1 { newton } else { 0.5 * (x0 + x1) };
+            let inside = newton > x0 && newton < x1;
+            // Newton's error is squared with every step.
+            if inside && (newton - x).abs() < 1e-8 {
+                return newton;
+            }
+            let next = if inside { newton } else { 0.5 * (x0 + x1) };
             if (next - x).abs() < 1e-15 {
                 return next;
             }

@@ -6,6 +6,7 @@ use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
 use crate::rod::bending::Bending;
 use crate::rod::element::{self, Motion, Table, Weights};
+use crate::rod::element_tangent;
 use crate::rod::joint;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
@@ -149,7 +150,7 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
 
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
         matrix.clear();
-        element::tangent::<S, W, B>(&self.table, &self.water, at, weights, geometric, matrix);
+        element_tangent::tangent::<S, W, B>(&self.table, &self.water, at, weights, geometric, matrix);
         for e in 0..self.table.len() {
             if let Some(ground) = &self.ground {
                 ground.tangent(&self.table, at, e, weights, matrix);

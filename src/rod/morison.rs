@@ -9,10 +9,11 @@
 //! f force on the line per unstretched length [N/m], V velocity of the water [m/s], a = r̈ [m/s²]. The water's own acceleration is
 //! zero here (current only). Projector with the unit tangent: the 1994 report's I - r′r′ᵀ makes a stretched line swim.
 
-use crate::algebra::lanes::{Real, Triple, length};
+use crate::algebra::lanes::{Real, Triple};
+use crate::algebra::tensor::Tensor;
+use crate::rod::element::Weights;
 use crate::rod::stretch::Direction;
 use crate::sea::current::Current;
-use nalgebra::{Matrix3, Vector3};
 
 /// Coefficients of an element.
 #[derive(Debug, Clone, Copy)]
@@ -40,17 +41,13 @@ pub struct PointMotion<F> {
     pub acceleration: Triple<F>,
 }
 
-/// Tangent of f.
+/// Tangent of f, weighted.
 #[derive(Debug, Clone, Copy)]
-pub struct WaterTangent {
-    /// ∂f/∂z, the change with height [N/m²].
-    pub by_height: Vector3<f64>,
-    /// ∂f/∂r′ [N/m].
-    pub by_slope: Matrix3<f64>,
-    /// ∂f/∂ṙ [N·s/m²].
-    pub by_velocity: Matrix3<f64>,
-    /// ∂f/∂r̈ [kg/m].
-    pub by_acceleration: Matrix3<f64>,
+pub struct WaterTangent<F> {
+    /// Change with position, velocity and acceleration together [N/m²].
+    pub by_motion: Tensor<F>,
+    /// Change with r′ [N/m].
+    pub by_slope: Tensor<F>,
 }
 
 /// The water around the line.
@@ -59,8 +56,13 @@ pub trait Water: Clone + Send + Sync + 'static {
     const PRESENT: bool;
     /// Velocity V - ṙ of the water past a point that moves [m/s].
     fn past<F: Real>(&self, cpu: F::Cpu, height: F, velocity: Triple<F>) -> Triple<F>;
+    /// Whether the water moves differently at different heights.
+    const SHEARED: bool = false;
     /// Its change with height [1/s].
-    fn shear(&self, height: f64) -> Vector3<f64>;
+    #[inline(always)]
+    fn shear<F: Real>(&self, cpu: F::Cpu, _: F) -> Triple<F> {
+        Triple::zero(cpu)
+    }
 }
 
 /// No hydrodynamic force at all.
@@ -72,9 +74,6 @@ impl Water for NoWater {
     #[inline(always)]
     fn past<F: Real>(&self, _: F::Cpu, _: F, velocity: Triple<F>) -> Triple<F> {
         -velocity
-    }
-    fn shear(&self, _: f64) -> Vector3<f64> {
-        Vector3::zeros()
     }
 }
 
@@ -88,9 +87,6 @@ impl Water for Still {
     fn past<F: Real>(&self, _: F::Cpu, _: F, velocity: Triple<F>) -> Triple<F> {
         -velocity
     }
-    fn shear(&self, _: f64) -> Vector3<f64> {
-        Vector3::zeros()
-    }
 }
 
 impl Water for Current {
@@ -99,8 +95,10 @@ impl Water for Current {
     fn past<F: Real>(&self, cpu: F::Cpu, height: F, velocity: Triple<F>) -> Triple<F> {
         self.added_to(cpu, height, -velocity)
     }
-    fn shear(&self, height: f64) -> Vector3<f64> {
-        Current::shear(self, height)
+    const SHEARED: bool = true;
+    #[inline(always)]
+    fn shear<F: Real>(&self, cpu: F::Cpu, height: F) -> Triple<F> {
+        Current::shear(self, cpu, height)
     }
 }
 
@@ -116,31 +114,45 @@ pub fn force<F: Real, W: Water>(cpu: F::Cpu, water: &W, k: &Coefficients<F>, at:
     at.acceleration.mul_add(-k.added_normal, qn.mul_add(k.drag_normal * qn.length(), t * along))
 }
 
-/// Tangent of f.
-pub fn tangent<W: Water>(water: &W, k: &Coefficients<f64>, at: &PointMotion<f64>) -> WaterTangent {
-    let stretch = at.direction.stretch;
-    let (t, acceleration) = (Vector3::from(at.direction.tangent), Vector3::from(at.acceleration));
-    let along = t * t.transpose();
-    let across = Matrix3::identity() - along;
-    let q = Vector3::from(water.past((), at.height, at.velocity));
-    let qt = t.dot(&q);
-    let qn = q - t * qt;
-    let speed = length(&qn);
-    let squared = |w: &Vector3<f64>| (across * speed + qn * w.transpose() / speed) * k.drag_normal;
+/// Tangent of f, c_u ∂f/∂u + c_v ∂f/∂v + c_a ∂f/∂a.
+///
+/// ```text
+/// ∂f/∂q = kn (|qn| (1 - t tᵀ) + qn qnᵀ/|qn|) + 2 kt |qt| t tᵀ
+/// dt = (1 - t tᵀ) dr′/|r′|,   dqt = qn·dr′/|r′|,   dqn = -(t qnᵀ + qt (1 - t tᵀ)) dr′/|r′|
+/// ```
+#[inline(always)]
+pub fn tangent<F: Real, W: Water>(
+    cpu: F::Cpu,
+    water: &W,
+    k: &Coefficients<F>,
+    at: &PointMotion<F>,
+    weights: &Weights,
+) -> WaterTangent<F> {
+    let t = at.direction.tangent;
+    let q = water.past(cpu, at.height, at.velocity);
+    let qt = t.dot(q);
+    let qn = t.mul_add(-qt, q);
+    let speed = qn.length();
+    let per_speed = k.drag_normal * speed.reciprocal();
+    let normal = k.drag_normal * speed;
+    let tangential = k.drag_tangential * qt.max(-qt);
+    let sliding = tangential * 2.0 - normal;
+    let skew = k.added_normal - k.added_tangential;
 
-    // ∂qn/∂q = across; ∂qt/∂q = t.
-    let by_flow = squared(&qn) + along * (2.0 * k.drag_tangential * qt.abs());
-    // dt = across dp / |p|; dqt = qn·dp/|p|; dqn = -(t qnᵀ + qt across) dp / |p|.
-    let turning = -(t * qn.transpose() + across * qt);
-    let normal = (Matrix3::identity() * speed + qn * qn.transpose() / speed) * turning * k.drag_normal;
-    let tangential = (t * qn.transpose() * 2.0 + across * qt) * (k.drag_tangential * qt.abs());
-    let a_t = t.dot(&acceleration);
-    let a_n = acceleration - t * a_t;
-    let inertia = (t * a_n.transpose() + across * a_t) * (k.added_normal - k.added_tangential);
-    WaterTangent {
-        by_height: by_flow * water.shear(at.height),
-        by_slope: (normal + tangential + inertia) / stretch,
-        by_velocity: -by_flow,
-        by_acceleration: -(across * k.added_normal + along * k.added_tangential),
+    let alike = normal * -weights.v - k.added_normal * weights.a;
+    let mut by_motion = Tensor::isotropic(cpu, alike)
+        .add_outer(t, t * (sliding * -weights.v + skew * weights.a))
+        .add_outer(qn, qn * (per_speed * -weights.v));
+    if W::SHEARED {
+        let shear = water.shear(cpu, at.height) * F::splat(cpu, weights.u);
+        let by_height = qn.mul_add(per_speed * qn.dot(shear), t.mul_add(sliding * t.dot(shear), shear * normal));
+        by_motion.0[2] = by_motion.0[2] + by_height;
     }
+
+    let at_t = t.dot(at.acceleration);
+    let at_n = at.acceleration - t * at_t;
+    let alike = qt * (tangential - normal) + skew * at_t;
+    let by_slope =
+        Tensor::isotropic(cpu, alike).add_outer(t, qn * sliding + at_n * skew - t * alike).add_outer(qn, qn * (-qt * per_speed));
+    WaterTangent { by_motion, by_slope: by_slope.times(at.direction.stretch.reciprocal() * weights.u) }
 }

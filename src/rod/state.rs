@@ -12,18 +12,25 @@ use pulp::{Arch, Simd, WithSimd};
 pub const COMPONENTS: usize = 6;
 
 /// Six numbers per node, component-major.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Field {
     nodes: usize,
     stride: usize,
     data: Vec<f64>,
+    processor: Arch,
+}
+
+impl PartialEq for Field {
+    fn eq(&self, other: &Field) -> bool {
+        self.nodes == other.nodes && self.data == other.data
+    }
 }
 
 impl Field {
     /// Zeros for `nodes` nodes.
     pub fn new(nodes: usize) -> Field {
         let stride = padded(nodes);
-        Field { nodes, stride, data: vec![0.0; COMPONENTS * stride + MOST_LANES] }
+        Field { nodes, stride, data: vec![0.0; COMPONENTS * stride + MOST_LANES], processor: Arch::new() }
     }
 
     /// Number of nodes.
@@ -93,18 +100,21 @@ impl Field {
         }
     }
 
-    /// self = x + factor·y, entry by entry.
-    pub fn set_sum(&mut self, x: &Field, factor: f64, y: &Field) {
-        for ((to, x), y) in self.data.iter_mut().zip(&x.data).zip(&y.data) {
-            *to = x + factor * y;
-        }
+    /// self = Σ factor·field, entry by entry.
+    pub fn set_sum<const N: usize>(&mut self, terms: [(f64, &Field); N]) {
+        let terms = terms.map(|(factor, field)| (factor, field.data.as_slice()));
+        self.processor.dispatch(Sum { to: &mut self.data, own: false, terms });
+    }
+
+    /// self += Σ factor·field, entry by entry.
+    pub fn add_sum<const N: usize>(&mut self, terms: [(f64, &Field); N]) {
+        let terms = terms.map(|(factor, field)| (factor, field.data.as_slice()));
+        self.processor.dispatch(Sum { to: &mut self.data, own: true, terms });
     }
 
     /// self += factor·x, entry by entry.
     pub fn add(&mut self, factor: f64, x: &Field) {
-        for (to, x) in self.data.iter_mut().zip(&x.data) {
-            *to += factor * x;
-        }
+        self.add_sum([(factor, x)]);
     }
 
     /// Sum of the products, entry by entry.
@@ -152,7 +162,29 @@ impl State {
     /// Takes `factors` (for u, v, a) times an increment away, and returns the largest entry of the increment times `scales` (for
     /// positions, slopes); NaN if any is not finite.
     pub fn retreat(&mut self, factors: [f64; 3], increment: &Field, scales: [f64; 2]) -> f64 {
-        Arch::new().dispatch(Retreat { state: self, factors, increment, scales })
+        increment.processor.dispatch(Retreat { state: self, factors, increment, scales })
+    }
+}
+
+struct Sum<'a, const N: usize> {
+    to: &'a mut [f64],
+    own: bool,
+    terms: [(f64, &'a [f64]); N],
+}
+
+impl<const N: usize> WithSimd for Sum<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        for at in (0..self.to.len()).step_by(V::F64_LANES) {
+            let zero = Lanes::splat(cpu, 0.0);
+            let mut sum = if self.own { Lanes::load(cpu, self.to, at) } else { zero };
+            for (factor, term) in self.terms {
+                sum = Lanes::load(cpu, term, at).scale_add(factor, sum);
+            }
+            sum.store(self.to, at);
+        }
     }
 }
 

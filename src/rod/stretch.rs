@@ -19,7 +19,8 @@
 //! f_s a twentieth of the element's weight in air, so that it vanishes with the mesh.
 
 use crate::algebra::lanes::{Real, Triple, length};
-use nalgebra::{Matrix3, Vector3};
+use crate::algebra::tensor::Tensor;
+use nalgebra::Vector3;
 
 /// Axial properties of an element.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +33,16 @@ pub struct Axial<F> {
     pub floor: F,
     /// f_s, bound of the friction of a slack element [N].
     pub friction: F,
+}
+
+impl<F: Real> Axial<F> {
+    /// EA and the tension of the geometric part, both zero where the line is slack.
+    #[inline(always)]
+    fn carried(&self, tension: F, geometric: Option<F>) -> (F, F) {
+        let geometric = geometric.unwrap_or(tension);
+        let on = (tension.max(geometric) - self.floor).positive();
+        (self.ea * on, geometric.max(self.floor) * on)
+    }
 }
 
 /// e_0, slackness at which the friction is whole [-].
@@ -71,33 +82,52 @@ impl<F: Real> Direction<F> {
     }
 }
 
-/// Tangent of n_s.
-fn slack_tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> AxialTangent {
-    let stretch = length(p);
-    let bunched = ((1.0 - stretch) / BUNCHED).clamp(0.0, 1.0);
-    let by_stretch = if bunched > 0.0 && bunched < 1.0 { -1.0 / BUNCHED } else { 0.0 };
-    let speed = (rate.dot(rate) + RATE * RATE).sqrt();
-    AxialTangent {
-        by_slope: rate * p.transpose() * (law.friction * by_stretch / (speed * stretch)),
-        by_rate: (Matrix3::identity() - rate * rate.transpose() / (speed * speed)) * (law.friction * bunched / speed),
-    }
+/// How much of ∂/∂r′ and of ∂/∂ṙ′ a tangent is made of.
+#[derive(Debug, Clone, Copy)]
+pub struct By {
+    /// Factor of ∂/∂r′.
+    pub slope: f64,
+    /// Factor of ∂/∂ṙ′ [s].
+    pub rate: f64,
 }
 
-/// Tangent of the axial force: ∂n/∂r′ and ∂n/∂ṙ′ [N].
-#[derive(Debug, Clone, Copy)]
-pub struct AxialTangent {
-    /// ∂n/∂r′ [N].
-    pub by_slope: Matrix3<f64>,
-    /// ∂n/∂ṙ′ [N·s].
-    pub by_rate: Matrix3<f64>,
+/// Adds the tangent of n_s to one of n.
+#[inline(always)]
+fn with_slack_tangent<F: Real>(
+    sum: Tensor<F>,
+    cpu: F::Cpu,
+    law: &Axial<F>,
+    at: &Direction<F>,
+    rate: Triple<F>,
+    by: By,
+) -> Tensor<F> {
+    let slackness = -at.stretch + 1.0;
+    if !(slackness * law.friction).any_positive() {
+        return sum;
+    }
+    let (zero, one) = (F::splat(cpu, 0.0), F::splat(cpu, 1.0));
+    let bunched = (slackness * (1.0 / BUNCHED)).max(zero).min(one);
+    let bunching = bunched.positive() * (-bunched + 1.0).positive() * (-1.0 / BUNCHED);
+    let slowness = (rate.dot(rate) + RATE * RATE).sqrt().reciprocal();
+    let friction = law.friction * slowness;
+    let by_rate = friction * bunched * by.rate;
+    let by_slope = at.tangent * (friction * bunching * by.slope);
+    Tensor::isotropic(cpu, by_rate).add_outer(rate, by_slope - rate * (by_rate * slowness * slowness)).mul_add(one, sum)
 }
 
 /// A law of extension.
 pub trait Stretch: Copy + Send + Sync + 'static {
     /// Axial force n [N] for a slope and its rate.
     fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F>;
-    /// Its tangent. `geometric`, where given, replaces the tension in the geometric part (mixed Newton path of statics).
-    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent;
+    /// Its tangent [N]. `geometric`, where given, replaces the tension in the geometric part (mixed Newton path of statics).
+    fn tangent<F: Real>(
+        cpu: F::Cpu,
+        law: &Axial<F>,
+        at: &Direction<F>,
+        rate: Triple<F>,
+        geometric: Option<F>,
+        by: By,
+    ) -> Tensor<F>;
     /// Signed effective tension |n| [N].
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64;
     /// Change of the tension for a change of the slope, to first order, without the limit `floor` [N].
@@ -116,23 +146,23 @@ impl Stretch for Exact {
         with_slack_force(at.tangent * tension.max(law.floor), cpu, law, strain, rate)
     }
 
-    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
-        let stretch = length(p);
-        let t = p / stretch;
-        let tension = Self::tension(law, p, rate);
-        if tension <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
-            return slack_tangent(law, p, rate);
-        }
-        let along = t * t.transpose();
-        let across = Matrix3::identity() - along;
-        let turning = across * rate * (law.damping / stretch);
-        let slack = slack_tangent(law, p, rate);
-        AxialTangent {
-            by_slope: (along + t * turning.transpose()) * law.ea
-                + across * (geometric.unwrap_or(tension).max(law.floor) / stretch)
-                + slack.by_slope,
-            by_rate: along * (law.ea * law.damping) + slack.by_rate,
-        }
+    #[inline(always)]
+    fn tangent<F: Real>(
+        cpu: F::Cpu,
+        law: &Axial<F>,
+        at: &Direction<F>,
+        rate: Triple<F>,
+        geometric: Option<F>,
+        by: By,
+    ) -> Tensor<F> {
+        let (t, per_stretch) = (at.tangent, at.stretch.reciprocal());
+        let tension = law.ea * law.damping.mul_add(t.dot(rate), at.stretch + -1.0);
+        let (stiffness, across) = law.carried(tension, geometric);
+        let across = across * per_stretch * by.slope;
+        let along = stiffness * (law.damping * by.rate + by.slope) - across;
+        let turning = (rate - t * t.dot(rate)) * (stiffness * law.damping * per_stretch * by.slope);
+        let sum = Tensor::isotropic(cpu, across).add_outer(t, t.mul_add(along, turning));
+        with_slack_tangent(sum, cpu, law, at, rate, by)
     }
 
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
@@ -158,18 +188,22 @@ impl Stretch for Report {
         with_slack_force(p * lambda.max(law.floor), cpu, law, at.stretch + -1.0, rate)
     }
 
-    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
-        let lambda = law.ea * (0.5 * (p.dot(p) - 1.0) + law.damping * p.dot(rate));
-        if lambda <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
-            return slack_tangent(law, p, rate);
-        }
-        let slack = slack_tangent(law, p, rate);
-        AxialTangent {
-            by_slope: (p * p.transpose() + p * rate.transpose() * law.damping) * law.ea
-                + Matrix3::identity() * geometric.unwrap_or(lambda).max(law.floor)
-                + slack.by_slope,
-            by_rate: p * p.transpose() * (law.ea * law.damping) + slack.by_rate,
-        }
+    #[inline(always)]
+    fn tangent<F: Real>(
+        cpu: F::Cpu,
+        law: &Axial<F>,
+        at: &Direction<F>,
+        rate: Triple<F>,
+        geometric: Option<F>,
+        by: By,
+    ) -> Tensor<F> {
+        let p = at.slope;
+        let lambda = law.ea * law.damping.mul_add(p.dot(rate), (p.dot(p) + -1.0) * 0.5);
+        let (stiffness, geometric) = law.carried(lambda, geometric);
+        let along = p * (stiffness * (law.damping * by.rate + by.slope));
+        let turning = rate * (stiffness * law.damping * by.slope);
+        let sum = Tensor::isotropic(cpu, geometric * by.slope).add_outer(p, along + turning);
+        with_slack_tangent(sum, cpu, law, at, rate, by)
     }
 
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {

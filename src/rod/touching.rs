@@ -6,14 +6,15 @@ use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, Shape};
-use crate::rod::element::{self, ElementTangent, Ends, Motion, PointTangent, Table, Weights};
+use crate::rod::element::{Ends, Motion, Table, Weights};
+use crate::rod::element_tangent::{ElementTangent, PointTangent};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::seabed::{Plane, Resistance, projector};
 use crate::rod::state::Field;
 use crate::rod::stretch::Direction;
 use crate::rod::surface;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// The bed under a line: its plane and its resistance against each element.
 #[derive(Debug, Clone)]
@@ -90,9 +91,9 @@ impl Ground {
                 }
             }
         }
-        let mut sum = ElementTangent::zero();
-        sum.add_products(&products, &projector(normal));
-        sum.add_to(matrix, e);
+        let mut sum = ElementTangent::zero(());
+        sum.add_products(&products, &projector(normal).into());
+        sum.add_to(matrix, e, 1.0, e + 1);
     }
 
     /// Unstretched length of element `e` in contact [m].
@@ -166,25 +167,24 @@ impl Surface {
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients(e);
-        let mut sum = ElementTangent::zero();
+        let mut sum = ElementTangent::zero(());
         for part in surface::wet_parts(&height, self.diameter[e]) {
             for gauss in self.rule(&height, part, e) {
                 let shape = Shape::at(part.from + (part.to - part.from) * gauss.x);
                 let point = point_motion(&u, &v, &a, length, &shape);
                 let (wet, by_height) = surface::wet_fraction(point.height, self.diameter[e]);
-                let mut tangent = PointTangent::of_load(Matrix3::zeros(), Matrix3::zeros());
-                if W::PRESENT {
-                    let (load, turning) = element::water_tangent(water, &coefficients, &point, weights);
-                    tangent.load = load * -wet;
-                    tangent.turning = turning * -wet;
-                }
                 let force = self.force(water, &coefficients, &point, e);
-                tangent.load -= force * Vector3::z().transpose() * (by_height * weights.u);
-                let scale = gauss.weight * (part.to - part.from) * length;
-                sum.add(&shape.scaled(length), scale, &tangent);
+                let by_rising = force * Vector3::z().transpose() * (-by_height * weights.u);
+                let mut tangent = PointTangent::of_load(by_rising.into());
+                if W::PRESENT {
+                    let water = morison::tangent((), water, &coefficients, &point, weights);
+                    tangent.load = water.by_motion.scale_add(-wet, tangent.load);
+                    tangent.turning = water.by_slope.times(-wet);
+                }
+                sum.add(&shape, gauss.weight * (part.to - part.from) * length, 1.0 / length, &tangent);
             }
         }
-        sum.add_to(matrix, e);
+        sum.add_to(matrix, e, length, e + 1);
     }
 }
 

@@ -69,7 +69,7 @@ impl Bench<'_> {
         }
         self.line.inertia(&motion(state), error, scratch);
         self.newton.solve_linear(self.line, scratch);
-        error.copy_from(scratch);
+        std::mem::swap(error, scratch);
     }
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
@@ -135,10 +135,6 @@ pub fn largest_position(field: &Field) -> f64 {
 
 /// Linear extrapolation of the accelerations to the end of a step, factor·(a - a_before) beyond a; constant without history.
 pub fn predict(from: &Moment, h: f64, a: &mut Field) {
-    a.copy_from(&from.state.a);
-    if from.last_step > 0.0 {
-        let factor = h / from.last_step;
-        a.add(factor, &from.state.a);
-        a.add(-factor, &from.earlier);
-    }
+    let factor = if from.last_step > 0.0 { h / from.last_step } else { 0.0 };
+    a.set_sum([(1.0 + factor, &from.state.a), (-factor, &from.earlier)]);
 }

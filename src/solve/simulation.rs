@@ -338,7 +338,7 @@ impl Simulation {
         let (state, moment) = (&self.moment.state, &self.moment);
         let mut jerk = Field::new(state.a.nodes());
         if moment.last_step > 0.0 {
-            jerk.set_sum(&state.a, -1.0, &moment.earlier);
+            jerk.set_sum([(1.0, &state.a), (-1.0, &moment.earlier)]);
             jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
         }
         let rate = State { u: state.v.clone(), v: state.a.clone(), a: jerk };
