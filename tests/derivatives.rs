@@ -296,6 +296,7 @@ fn output_rates_are_the_change_of_the_outputs() {
     let loaded =
         read::built_in(&["solver.tolerance=1e-5".to_string(), "solver.max_step=0.01".to_string()]).expect("the built-in scene");
     let mut simulation = Simulation::new(&loaded.scene, 0).expect("the built-in line");
+    simulation.sum_up_work();
     let path = Path::of_scene(&loaded, 0);
     simulation.settle(Vector3::zeros(), 0.0).expect("equilibrium");
     let d = 0.02;

@@ -450,7 +450,8 @@ impl Instance {
             line.fairlead = origin;
         }
         check::check(&Scene { motion: Motion::Fixed, ..scene.clone() }, "parameters").map_err(|error| self.refusal(error))?;
-        let simulation = Simulation::new(&scene, 0).map_err(|error| self.refusal(error))?;
+        let mut simulation = Simulation::new(&scene, 0).map_err(|error| self.refusal(error))?;
+        simulation.sum_up_work();
         Ok(BuiltLine { simulation, parameters, origin, tolerance: experiment.tolerance, interpolation: settings.interpolation })
     }
 

@@ -10,7 +10,7 @@ use crate::rod::element::{Ends, Motion, Table, Weights};
 use crate::rod::element_tangent::{ElementTangent, PointTangent};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
-use crate::rod::seabed::{Plane, Resistance, projector};
+use crate::rod::seabed::{self, Plane, Resistance, projector};
 use crate::rod::state::Field;
 use crate::rod::stretch::Direction;
 use crate::rod::surface;
@@ -79,7 +79,11 @@ impl Ground {
         let v = Ends::gather(at.v, e, length);
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
         let mut products = [[0.0; 4]; 4];
-        for part in resistance.touching(&profile).iter() {
+        let grounded = resistance.damping == 0.0 && profile.below(resistance.onset);
+        if grounded {
+            products = seabed::grounded_tangent(resistance.stiffness * weights.u, length);
+        }
+        for part in resistance.touching(&profile).iter().filter(|_| !grounded) {
             for point in &GAUSS4 {
                 let shape = Shape::at(part.from + (part.to - part.from) * point.x);
                 let rate = v.combine(&shape.value).along(normal);

@@ -73,6 +73,7 @@ pub struct Simulation {
     demands: Demands,
     moment: Moment,
     work: f64,
+    works: bool,
     fresh: bool,
     last: LastStep,
 }
@@ -155,9 +156,16 @@ impl Simulation {
             moment: controller::at_rest(nodes, 0.0, solver.max_step),
             line,
             work: 0.0,
+            works: false,
             fresh: true,
             last: LastStep::default(),
         }
+    }
+
+    /// From now on the work done on the vessel is summed up over the steps; unasked it stays zero, since it costs an end force in
+    /// every step.
+    pub fn sum_up_work(&mut self) {
+        self.works = true;
     }
 
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
@@ -227,15 +235,17 @@ impl Simulation {
 
     fn run(&mut self, until: f64, path: &Path) -> Result<(), Failure> {
         let line = self.line.as_ref();
-        let mut force = line.end_force(&motion(&self.moment.state));
-        let mut place = self.moment.state.u.position(line.last());
+        let end = |moment: &Moment| (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
+        let mut before = self.works.then(|| end(&self.moment));
         let work = &mut self.work;
         let criteria = self.demands.criteria;
         let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Solve };
         self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment, _| {
-            let (force_now, place_now) = (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
-            *work += 0.5 * (force + force_now).dot(&(place_now - place));
-            (force, place) = (force_now, place_now);
+            if let Some((force, place)) = &mut before {
+                let (force_now, place_now) = end(moment);
+                *work += 0.5 * (*force + force_now).dot(&(place_now - *place));
+                (*force, *place) = (force_now, place_now);
+            }
         })
     }
 
