@@ -389,6 +389,53 @@ impl<S: Stretch, W: Water, B: Bending, P: FnMut(usize, bool, bool, &mut Field)> 
     }
 }
 
+/// Forces on the last end of every element [N], and on the first end of the first; `partly` as for the residual, to be added to them.
+pub fn end_forces<S: Stretch, W: Water, B: Bending>(
+    table: &Table,
+    water: &W,
+    bed: Option<&Bed>,
+    motion: &Motion,
+    out: &mut [Vector3<f64>],
+    partly: impl FnMut(usize, bool, bool, &mut [Vector3<f64>]),
+) {
+    let source = Source::new(table, water, bed, motion);
+    table.processor.dispatch(EndForces::<S, W, B, _> { table, source, out, partly, laws: PhantomData });
+}
+
+struct EndForces<'a, S, W, B, P> {
+    table: &'a Table,
+    source: Source<'a, W>,
+    out: &'a mut [Vector3<f64>],
+    partly: P,
+    laws: PhantomData<(S, B)>,
+}
+
+impl<S: Stretch, W: Water, B: Bending, P: FnMut(usize, bool, bool, &mut [Vector3<f64>])> WithSimd for EndForces<'_, S, W, B, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(mut self, cpu: V) {
+        let mut rows = [[0.0; MOST_LANES]; 8];
+        for e in (0..self.table.len()).step_by(V::F64_LANES) {
+            let acting = batch_forces::<Lanes<V>, S, W, B>(cpu, &self.source, e);
+            let ([x, y, z], first) = (acting.ends[2].components(), acting.ends[0].components());
+            for (row, lanes) in rows.iter_mut().zip([x, y, z, first[0], first[1], first[2], acting.touching, acting.dry]) {
+                lanes.store(row, 0);
+            }
+            if e == 0 {
+                self.out[0] = Vector3::new(rows[3][0], rows[4][0], rows[5][0]);
+            }
+            for lane in (0..V::F64_LANES).filter(|lane| e + lane < self.table.len()) {
+                self.out[e + lane + 1] = Vector3::new(rows[0][lane], rows[1][lane], rows[2][lane]);
+                let (touching, dry) = (rows[6][lane] > 0.0, rows[7][lane] > 0.0);
+                if touching || dry {
+                    (self.partly)(e + lane, touching, dry, self.out);
+                }
+            }
+        }
+    }
+}
+
 /// Adds what acts on the ends of element `e` (forces, and moments for slopes times length) to the nodes.
 pub fn scatter_to_nodes(out: &mut Field, e: usize, length: f64, sum: &[Triple<f64>; 4]) {
     add_to_nodes((), out, e, length, sum);

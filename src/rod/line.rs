@@ -184,12 +184,18 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
     }
 
     fn node_forces(&self, at: &Motion, out: &mut [Vector3<f64>]) {
-        for e in 0..self.table.len() {
-            let sum = self.element_forces(at, e);
-            if e == 0 {
-                out[0] = (-sum[0]).into();
+        let partly = |e: usize, touching: bool, dry: bool, out: &mut [Vector3<f64>]| {
+            for part in self.partial_forces(at, e, touching, dry).into_iter().flatten() {
+                out[e + 1] += Vector3::from(part[2]);
+                if e == 0 {
+                    out[0] += Vector3::from(part[0]);
+                }
             }
-            out[e + 1] = if self.table.is_joint(e) { out[e] } else { sum[2].into() };
+        };
+        element::end_forces::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        out[0] = -out[0];
+        for &e in &self.joints {
+            out[e + 1] = out[e];
         }
     }
 

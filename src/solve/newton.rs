@@ -77,7 +77,7 @@ const STALE: f64 = 0.3;
 /// Damped iterations before giving up.
 const DAMPED: usize = 25;
 /// Contraction beyond which the tangent is factored anew.
-const SLOW: f64 = 0.25;
+const SLOW: f64 = 0.15;
 
 impl Newton {
     /// A solver for a line.
