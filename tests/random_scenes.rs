@@ -101,6 +101,7 @@ fn scene(seed: u64) -> Scene {
             anchor: [span * cos, span * sin, -drop],
             sections: vec![Section { line_type: "rope".to_string(), length, elements: Some(random.between(5.0, 41.0) as usize) }],
             attachments: Vec::new(),
+            constraints: Vec::new(),
         }],
         motion: Motion::Sinusoidal {
             period: random.magnitude(4.0, 20.0),
