@@ -158,7 +158,7 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
 
 fn residual(line: &dyn Line, state: &State) -> Field {
     let mut out = Field::new(line.mesh().nodes());
-    line.residual(&Motion { u: &state.u, v: &state.v, a: &state.a }, &mut out);
+    line.residual(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a }, &mut out);
     out
 }
 
@@ -167,7 +167,7 @@ fn residual(line: &dyn Line, state: &State) -> Field {
 fn error(line: &dyn Line, state: &State, weights: &Weights, random: &mut Random, d: f64) -> f64 {
     let direction = random.field(line.mesh(), 1.0, 1.0);
     let mut matrix = BlockTridiagonal::new(line.mesh().ties());
-    line.tangent(&Motion { u: &state.u, v: &state.v, a: &state.a }, weights, None, &mut matrix);
+    line.tangent(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a }, weights, None, &mut matrix);
     let product = times(&matrix, &direction);
     let moved = |sign: f64| {
         let mut moved = state.clone();

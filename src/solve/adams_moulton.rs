@@ -33,7 +33,7 @@ impl Scheme for AdamsMoulton {
         next.v.add(0.5 * h, &next.a);
         next.u.set_sum(&start.u, 0.5 * h, &start.v);
         next.u.add(0.5 * h, &next.v);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.prescribe(next, from.clock_after(h));
         bench.solve(&weights, next)?;
 
         self.error.copy_from(&next.a);

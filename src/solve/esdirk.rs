@@ -106,7 +106,7 @@ impl Esdirk {
             self.base.add(h * tableau.below[i][j], &self.velocities[j]);
         }
         next.u.set_sum(&self.base, diagonal, &next.v);
-        bench.prescribe(next, &bench.path.at(from.time + tableau.nodes[i] * h));
+        bench.prescribe(next, from.clock_after(tableau.nodes[i] * h));
         let weights = Weights { u: diagonal * diagonal, v: diagonal, a: 1.0 };
         bench.solve(&weights, next)?;
         self.velocities[i].copy_from(&next.v);

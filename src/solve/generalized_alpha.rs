@@ -54,11 +54,12 @@ impl Scheme for GeneralizedAlpha {
             next.u.add(h * h * BETA, &next.a);
         };
         finish(next);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.prescribe(next, from.clock_after(h));
         blend(&mut self.between.u, ALPHA_F, &next.u, &start.u);
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
-        let driving = bench.path.at(from.time + (1.0 - ALPHA_F) * h).acceleration;
+        self.between.clock = from.clock_after((1.0 - ALPHA_F) * h);
+        let driving = bench.path.at(self.between.clock.now).acceleration;
         self.between.a.set_position(bench.line.last(), &driving);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };
         bench.solve(&weights, &mut self.between)?;
@@ -66,7 +67,7 @@ impl Scheme for GeneralizedAlpha {
         next.a.set_sum(&self.between.a, -ALPHA_M, &start.a);
         next.a.data_mut().iter_mut().for_each(|x| *x /= 1.0 - ALPHA_M);
         finish(next);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.prescribe(next, from.clock_after(h));
         self.error.copy_from(&next.a);
         self.error.add(-1.0, &start.a);
         self.error.data_mut().iter_mut().for_each(|x| *x *= h * h * (BETA - 1.0 / 6.0));
