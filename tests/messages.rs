@@ -253,6 +253,9 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         &["lines[0].constraints[0].locked", "three"],
     ),
     (r#""name": "line","#, r#""constraints": [{"s": 8, "mass": 3}],"#, &["lines[0].constraints", "does not support constraints"]),
+    (r#""mass": 135.35,"#, r#""mass": 135.35, "outer_area": -1,"#, &["line_types.chain.outer_area", "-1 is not allowed", "m²"]),
+    (r#""mass": 135.35,"#, r#""mass": 135.35, "seabed_stiffness": 0,"#, &["line_types.chain.seabed_stiffness", "Pa"]),
+    (r#""duration": 120.0"#, r#""duration": 120.0, "start": 1e16"#, &["run.start", "1e16"]),
     (r#""run": {"#, r#""solver": {"scheme": "cable-1994"}, "run": {"#, &["solver.scheme", "does not support", "adams-moulton"]),
     (r#""run": {"#, r#""solver": {"hydrostatic_strain": true}, "run": {"#, &["solver.hydrostatic_strain", "does not support"]),
 ];

@@ -65,6 +65,8 @@ fn line_type(random: &mut Random) -> LineType {
         tension_strain: None,
         breaking_load: None,
         inner_fluid: None,
+        outer_area: None,
+        seabed_stiffness: None,
     }
 }
 
@@ -109,7 +111,7 @@ fn scene(seed: u64) -> Scene {
             cosine: [0.0; 3],
             ramp: None,
         },
-        run: Run { duration: 2.0, output_step: random.magnitude(0.05, 0.5) },
+        run: Run { duration: 2.0, start: 0.0, output_step: random.magnitude(0.05, 0.5) },
         solver: Solver::default(),
     }
 }

@@ -184,6 +184,12 @@ fn line_type_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
             not_negative(file, &at(&format!("{key}.normal")), normal, "")?;
             not_negative(file, &at(&format!("{key}.tangential")), tangential, "")?;
         }
+        if let Some(area) = line_type.outer_area {
+            not_negative(file, &at("outer_area"), area, "m²; leave it out for the displaced volume per length")?;
+        }
+        if let Some(stiffness) = line_type.seabed_stiffness {
+            positive(file, &at("seabed_stiffness"), stiffness, "Pa; leave it out for environment.seabed.stiffness")?;
+        }
         if let Some(load) = line_type.breaking_load {
             positive(file, &at("breaking_load"), load, "N")?;
         }
@@ -430,6 +436,7 @@ fn file_moves_one_line(scene: &Scene, file: &str) -> Result<(), Error> {
 fn run(scene: &Scene, file: &str) -> Result<(), Error> {
     let run = &scene.run;
     not_negative(file, "run.duration", run.duration, "s")?;
+    finite(file, "run.start", &[run.start])?;
     positive(file, "run.output_step", run.output_step, "s")?;
     let rows = run.duration / run.output_step;
     if !(rows <= MOST_ROWS) {
@@ -515,10 +522,10 @@ pub fn motion_table(scene: &Scene, table: &Table, path: &str) -> Vec<String> {
             triple(line.fairlead)
         ));
     }
-    if *start > 0.0 || *end < scene.run.duration {
-        let (start, end, duration) = (number(*start), number(*end), number(scene.run.duration));
+    if *start > scene.run.start || *end < scene.run.end() {
+        let [start, end, from, to] = [*start, *end, scene.run.start, scene.run.end()].map(number);
         warnings
-            .push(format!("{path} covers t = {start} s to {end} s of a run from 0 to {duration} s; the fairlead rests outside"));
+            .push(format!("{path} covers t = {start} s to {end} s of a run from {from} to {to} s; the fairlead rests outside"));
     }
     warnings
 }

@@ -223,6 +223,15 @@ pub struct LineType {
     /// Fluid inside a pipe. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_fluid: Option<InnerFluid>,
+    /// Area on which the pressure of the water acts where `solver.hydrostatic_strain` is on [m²], ≥ 0.
+    /// Default: the displaced volume per length, buoyancy / (density · gravity).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub outer_area: Option<f64>,
+    /// Normal stiffness of the seabed under this type [Pa], > 0. Default: `environment.seabed.stiffness`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub seabed_stiffness: Option<f64>,
 }
 
 /// A coefficient across and along the line.
@@ -469,6 +478,9 @@ pub struct Run {
     #[serde(default = "default_duration")]
     #[schemars(range(min = 0.0))]
     pub duration: f64,
+    /// Time at which the run begins [s]; the fairlead's motion is that of this time and after. Default 0.
+    #[serde(default)]
+    pub start: f64,
     /// Interval of `timeseries.csv` [s], > 0. Default 0.1.
     #[serde(default = "default_output_step")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -559,7 +571,7 @@ fn default_max_step() -> f64 {
 
 impl Default for Run {
     fn default() -> Self {
-        Run { duration: default_duration(), output_step: default_output_step() }
+        Run { duration: default_duration(), start: 0.0, output_step: default_output_step() }
     }
 }
 
@@ -573,6 +585,13 @@ impl Default for Solver {
             stretch: Stretch::default(),
             hydrostatic_strain: false,
         }
+    }
+}
+
+impl Run {
+    /// Time at which the run ends [s].
+    pub fn end(&self) -> f64 {
+        self.start + self.duration
     }
 }
 

@@ -69,6 +69,7 @@ pub fn material(ea: f64, mass: f64, weight: f64) -> Properties {
         drag_tangential: 0.0,
         added_normal: 0.0,
         added_tangential: 0.0,
+        seabed_stiffness: None,
     }
 }
 
