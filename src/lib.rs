@@ -59,6 +59,7 @@ pub mod rod {
 
 /// What the water does at a place.
 pub mod sea {
+    pub mod clock;
     pub mod current;
 }
 

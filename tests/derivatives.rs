@@ -114,6 +114,7 @@ fn line_of(physics: &Physics) -> Box<dyn Line> {
         drag_tangential: 25.0 * water,
         added_normal: 60.0 * water,
         added_tangential: 10.0 * water,
+        seabed_stiffness: None,
         ..material(2.0e4, 12.0, 70.0)
     };
     let other = Properties { ea: 7.0e4, mass: 20.0, weight: 150.0, weight_in_air: 190.0, ..rope };
@@ -158,7 +159,7 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
 
 fn residual(line: &dyn Line, state: &State) -> Field {
     let mut out = Field::new(line.mesh().nodes());
-    line.residual(&Motion { u: &state.u, v: &state.v, a: &state.a }, &mut out);
+    line.residual(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a }, &mut out);
     out
 }
 
@@ -167,7 +168,7 @@ fn residual(line: &dyn Line, state: &State) -> Field {
 fn error(line: &dyn Line, state: &State, weights: &Weights, random: &mut Random, d: f64) -> f64 {
     let direction = random.field(line.mesh(), 1.0, 1.0);
     let mut matrix = BlockTridiagonal::new(line.mesh().ties());
-    line.tangent(&Motion { u: &state.u, v: &state.v, a: &state.a }, weights, None, &mut matrix);
+    line.tangent(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a }, weights, None, &mut matrix);
     let product = times(&matrix, &direction);
     let moved = |sign: f64| {
         let mut moved = state.clone();

@@ -74,10 +74,10 @@ fn drive(
     let interrupt = Interrupt::watch();
     lines.settle(record)?;
     let mut nodes = lines.nodes();
-    tables.row(record, 0.0, &lines.outputs(), &nodes)?;
-    tables.snapshot(record, 0.0, &nodes)?;
+    tables.row(record, schedule.time(0), &lines.outputs(), &nodes)?;
+    tables.snapshot(record, schedule.time(0), &nodes)?;
 
-    let progress = Progress::new(schedule.rows(), record.scene.run.duration, quiet);
+    let progress = Progress::new(schedule.rows(), record.scene.run.end(), quiet);
     let mut outcome = Ok(());
     for row in 1..schedule.rows() {
         let time = schedule.time(row);
@@ -113,9 +113,10 @@ impl MovingLines {
 
     /// Finds the equilibrium of all lines. Of a line that has none, the best state found is recorded.
     fn settle(&mut self, record: &mut Record) -> Result<(), Error> {
+        let begin = record.scene.run.start;
         for ((simulation, path), line) in self.lines.iter_mut().zip(&mut record.lines) {
             let started = Instant::now();
-            let report = simulation.settle(path.at(0.0).position, 0.0);
+            let report = simulation.settle(path.at(begin).position, begin);
             record.statics_seconds += started.elapsed().as_secs_f64();
             line.equilibrium = simulation.nodes();
             line.statics = Some(report?);

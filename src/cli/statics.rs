@@ -63,8 +63,9 @@ fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
     let mut failure = None;
     for (index, line) in loaded.scene.lines.iter().enumerate() {
         let mut simulation = Simulation::new(&loaded.scene, index)?;
-        let fairlead = Path::of_scene(loaded, index).at(0.0).position;
-        let (converged, iterations, residual) = match simulation.settle(fairlead, 0.0) {
+        let start = loaded.scene.run.start;
+        let fairlead = Path::of_scene(loaded, index).at(start).position;
+        let (converged, iterations, residual) = match simulation.settle(fairlead, start) {
             Ok(report) => (report.converged, report.iterations, report.residual),
             Err(error) => {
                 let Error::Statics(state) = &error else { return Err(error) };

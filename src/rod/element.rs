@@ -17,6 +17,7 @@ use crate::rod::seabed::Bed;
 use crate::rod::state::COMPONENTS;
 use crate::rod::state::Field;
 use crate::rod::stretch::{Axial, Direction, Stretch};
+use crate::sea::clock::Clock;
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 use std::marker::PhantomData;
@@ -24,6 +25,8 @@ use std::marker::PhantomData;
 /// The motion at which forces are asked for.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<'a> {
+    /// When.
+    pub clock: Clock,
     /// Positions and slopes.
     pub u: &'a Field,
     /// Their rates.

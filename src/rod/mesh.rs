@@ -60,6 +60,8 @@ pub struct Properties {
     pub added_normal: f64,
     /// ρ (π/4) d² Cmt [kg/m].
     pub added_tangential: f64,
+    /// Stiffness of the bed under it [Pa]; none: the environment's.
+    pub seabed_stiffness: Option<f64>,
 }
 
 impl Properties {
@@ -79,6 +81,7 @@ impl Properties {
             drag_tangential: 0.5 * rho * std::f64::consts::PI * d * line_type.drag.tangential,
             added_normal: rho * area * line_type.added_mass.normal,
             added_tangential: rho * area * line_type.added_mass.tangential,
+            seabed_stiffness: line_type.seabed_stiffness,
         }
     }
 

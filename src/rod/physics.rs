@@ -91,7 +91,8 @@ pub fn ground(environment: &Environment, mesh: &Mesh) -> Ground {
     let resistance = (0..mesh.elements.len()).map(|e| {
         let properties = mesh.properties_of(e);
         let sinking = if properties.weight > 0.0 { properties.weight } else { properties.weight_in_air };
-        let stiffness = environment.seabed.stiffness.unwrap_or(sinking / properties.diameter);
+        let given = properties.seabed_stiffness.or(environment.seabed.stiffness);
+        let stiffness = given.unwrap_or(sinking / properties.diameter);
         let onset = properties.weight.max(0.0) * plane.normal.z / stiffness;
         Resistance { stiffness, damping: environment.seabed.damping, onset, easing: onset.max(0.1 * properties.diameter) }
     });

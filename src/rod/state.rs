@@ -5,6 +5,7 @@
 //! is padded with zeros, and so is the end, so that elements can be read in batches without a look at where the line ends.
 
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, padded};
+use crate::sea::clock::Clock;
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -133,9 +134,11 @@ impl Field {
     }
 }
 
-/// Unknowns u, their rates v = du/dt and a = dv/dt.
+/// Unknowns u, their rates v = du/dt and a = dv/dt, and when they are so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
+    /// When.
+    pub clock: Clock,
     /// Positions and slopes.
     pub u: Field,
     /// Velocities.
@@ -145,13 +148,14 @@ pub struct State {
 }
 
 impl State {
-    /// A line of `nodes` nodes, all zero.
+    /// A line of `nodes` nodes, all zero, at time zero.
     pub fn new(nodes: usize) -> State {
-        State { u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes) }
+        State { clock: Clock::default(), u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes) }
     }
 
     /// Copies the state of a line with as many nodes, without allocation.
     pub fn copy_from(&mut self, from: &State) {
+        self.clock = from.clock;
         self.u.copy_from(&from.u);
         self.v.copy_from(&from.v);
         self.a.copy_from(&from.a);
@@ -201,7 +205,7 @@ impl WithSimd for Retreat<'_> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> f64 {
         let (stride, x) = (self.increment.stride, self.increment.data.as_slice());
-        let State { u, v, a } = self.state;
+        let State { u, v, a, .. } = self.state;
         let [c_u, c_v, c_a] = self.factors;
         let (mut largest, mut finite) = (Lanes::splat(cpu, 0.0), Lanes::splat(cpu, 0.0));
         for (part, scale) in self.scales.into_iter().enumerate() {

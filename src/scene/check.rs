@@ -6,7 +6,7 @@
 
 use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;
-use crate::scene::types::{Line, LineType, Motion, NormalTangential, Scene, Scheme, Triple};
+use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Scheme, Triple};
 
 /// Largest size of any number.
 const LARGEST: f64 = 1.0e15;
@@ -23,7 +23,7 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 24] = [
+const RULES: [Rule; 26] = [
     gravity,
     water_density,
     depth,
@@ -41,6 +41,8 @@ const RULES: [Rule; 24] = [
     section_types,
     lengths,
     elements,
+    attachments,
+    constraints,
     ends_above_bed,
     motion_numbers,
     motion_above_bed,
@@ -80,6 +82,9 @@ fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
     for (number, line) in scene.lines.iter().enumerate() {
         if !line.attachments.is_empty() {
             return unsupported(format!("lines[{number}].attachments"), "clump weights and buoys; remove them");
+        }
+        if !line.constraints.is_empty() {
+            return unsupported(format!("lines[{number}].constraints"), "constraints of points of a line; remove them");
         }
     }
     if scene.solver.scheme == Scheme::Cable1994 {
@@ -178,6 +183,12 @@ fn line_type_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
         for (key, NormalTangential { normal, tangential }) in [("drag", line_type.drag), ("added_mass", line_type.added_mass)] {
             not_negative(file, &at(&format!("{key}.normal")), normal, "")?;
             not_negative(file, &at(&format!("{key}.tangential")), tangential, "")?;
+        }
+        if let Some(area) = line_type.outer_area {
+            not_negative(file, &at("outer_area"), area, "m²; leave it out for the displaced volume per length")?;
+        }
+        if let Some(stiffness) = line_type.seabed_stiffness {
+            positive(file, &at("seabed_stiffness"), stiffness, "Pa; leave it out for environment.seabed.stiffness")?;
         }
         if let Some(load) = line_type.breaking_load {
             positive(file, &at("breaking_load"), load, "N")?;
@@ -291,6 +302,76 @@ fn elements(scene: &Scene, file: &str) -> Result<(), Error> {
     Ok(())
 }
 
+fn attachments(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (index, line) in scene.lines.iter().enumerate() {
+        for (number, body) in line.attachments.iter().enumerate() {
+            let at = |key: &str| format!("lines[{index}].attachments[{number}].{key}");
+            on_the_line(file, &at("s"), body.s, line)?;
+            not_negative(file, &at("mass"), body.mass, "kg")?;
+            not_negative(file, &at("volume"), body.volume, "m³")?;
+            not_negative(file, &at("drag_area"), body.drag_area, "m²")?;
+            not_negative(file, &at("added_mass"), body.added_mass, "kg")?;
+        }
+    }
+    Ok(())
+}
+
+fn constraints(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (index, line) in scene.lines.iter().enumerate() {
+        for (number, constraint) in line.constraints.iter().enumerate() {
+            let at = |key: &str| format!("lines[{index}].constraints[{number}].{key}");
+            on_the_line(file, &at("s"), constraint.s, line)?;
+            if let Some(twin) = line.constraints[..number].iter().position(|other| other.s == constraint.s) {
+                let allowed = format!("constraints[{twin}] is there already; say all that holds one point in one constraint");
+                return refuse(file, at("s"), self::number(constraint.s), allowed);
+            }
+            two_directions(file, &at("axes"), &constraint.axes)?;
+            finite(file, &at("reference"), &constraint.reference.unwrap_or_default())?;
+            for axis in 0..3 {
+                not_negative(file, &at(&format!("stiffness[{axis}]")), constraint.stiffness[axis], "N/m")?;
+                not_negative(file, &at(&format!("damping[{axis}]")), constraint.damping[axis], "N·s/m")?;
+            }
+            finite(file, &at("force"), &constraint.force)?;
+            not_negative(file, &at("mass"), constraint.mass, "kg")?;
+            not_negative(file, &at("added_mass"), constraint.added_mass, "kg")?;
+            if let Some(ReferenceMotion { period, sine, cosine, ramp }) = &constraint.motion {
+                sinusoid(file, &at("motion"), *period, [sine, cosine], *ramp)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn on_the_line(file: &str, place: &str, s: f64, line: &Line) -> Result<(), Error> {
+    let length = line.length();
+    if (0.0..=length * (1.0 + 1.0e-9)).contains(&s) {
+        return Ok(());
+    }
+    let allowed = format!("it must lie on the line, between 0 (fairlead) and {} m (anchor)", number(length));
+    refuse(file, place, number(s), allowed)
+}
+
+/// Two directions span axes when neither vanishes and they are not parallel (within a ten-thousandth of a radian).
+fn two_directions(file: &str, place: &str, axes: &[Triple; 2]) -> Result<(), Error> {
+    let [first, second] = axes;
+    finite(file, place, first)?;
+    finite(file, place, second)?;
+    let size = |a: &Triple| distance([0.0; 3], *a);
+    let cross = [0, 1, 2].map(|c| first[(c + 1) % 3] * second[(c + 2) % 3] - first[(c + 2) % 3] * second[(c + 1) % 3]);
+    if !(size(&cross) > 1.0e-4 * size(first) * size(second)) {
+        let value = format!("[{}, {}]", triple(*first), triple(*second));
+        return refuse(file, place, value, "give two directions of some length that are not parallel");
+    }
+    Ok(())
+}
+
+fn sinusoid(file: &str, place: &str, period: f64, parts: [&Triple; 2], ramp: Option<f64>) -> Result<(), Error> {
+    positive(file, &format!("{place}.period"), period, "s")?;
+    finite(file, &format!("{place}.sine"), parts[0])?;
+    finite(file, &format!("{place}.cosine"), parts[1])?;
+    not_negative(file, &format!("{place}.ramp"), ramp.unwrap_or(0.0), "s; 0 means none")
+}
+
 fn ends_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
     for (index, line) in scene.lines.iter().enumerate() {
         for (end, at) in [("fairlead", line.fairlead), ("anchor", line.anchor)] {
@@ -313,12 +394,7 @@ fn ends_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
 fn motion_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
     match &scene.motion {
         Motion::Fixed => Ok(()),
-        Motion::Sinusoidal { period, sine, cosine, ramp } => {
-            positive(file, "motion.period", *period, "s")?;
-            finite(file, "motion.sine", sine)?;
-            finite(file, "motion.cosine", cosine)?;
-            not_negative(file, "motion.ramp", ramp.unwrap_or(0.0), "s; 0 means none")
-        }
+        Motion::Sinusoidal { period, sine, cosine, ramp } => sinusoid(file, "motion", *period, [sine, cosine], *ramp),
         Motion::File { path } if path.trim().is_empty() => {
             refuse(file, "motion.path", "\"\"", "name a CSV file with the columns t,x,y,z[,vx,vy,vz]")
         }
@@ -360,6 +436,7 @@ fn file_moves_one_line(scene: &Scene, file: &str) -> Result<(), Error> {
 fn run(scene: &Scene, file: &str) -> Result<(), Error> {
     let run = &scene.run;
     not_negative(file, "run.duration", run.duration, "s")?;
+    finite(file, "run.start", &[run.start])?;
     positive(file, "run.output_step", run.output_step, "s")?;
     let rows = run.duration / run.output_step;
     if !(rows <= MOST_ROWS) {
@@ -445,10 +522,10 @@ pub fn motion_table(scene: &Scene, table: &Table, path: &str) -> Vec<String> {
             triple(line.fairlead)
         ));
     }
-    if *start > 0.0 || *end < scene.run.duration {
-        let (start, end, duration) = (number(*start), number(*end), number(scene.run.duration));
+    if *start > scene.run.start || *end < scene.run.end() {
+        let [start, end, from, to] = [*start, *end, scene.run.start, scene.run.end()].map(number);
         warnings
-            .push(format!("{path} covers t = {start} s to {end} s of a run from 0 to {duration} s; the fairlead rests outside"));
+            .push(format!("{path} covers t = {start} s to {end} s of a run from {from} to {to} s; the fairlead rests outside"));
     }
     warnings
 }

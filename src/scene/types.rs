@@ -223,6 +223,15 @@ pub struct LineType {
     /// Fluid inside a pipe. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_fluid: Option<InnerFluid>,
+    /// Area on which the pressure of the water acts where `solver.hydrostatic_strain` is on [m²], ≥ 0.
+    /// Default: the displaced volume per length, buoyancy / (density · gravity).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub outer_area: Option<f64>,
+    /// Normal stiffness of the seabed under this type [Pa], > 0. Default: `environment.seabed.stiffness`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub seabed_stiffness: Option<f64>,
 }
 
 /// A coefficient across and along the line.
@@ -251,7 +260,7 @@ pub struct InnerFluid {
     pub area: f64,
 }
 
-/// One mooring line from fairlead to anchor. Both ends are pinned.
+/// One mooring line from fairlead to anchor. Both ends are pinned, unless a constraint says otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
@@ -269,6 +278,10 @@ pub struct Line {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(extend("default" = []))]
     pub attachments: Vec<Attachment>,
+    /// Springs, dampers, locked directions, dead forces and masses at points of the line. Default: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
+    pub constraints: Vec<Constraint>,
 }
 
 /// A stretch of one line type.
@@ -287,24 +300,92 @@ pub struct Section {
     pub elements: Option<usize>,
 }
 
-/// A clump weight or buoy on the line.
+/// A clump weight or buoy on the line: a small body at one point of it. It rests on the seabed where it reaches it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
-    /// Arc length from the fairlead [m].
+    /// Arc length from the fairlead [m], from 0 to the line's length.
+    #[schemars(range(min = 0.0))]
     pub s: f64,
-    /// Mass [kg].
+    /// Mass [kg], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub mass: f64,
-    /// Displaced volume [m³].
+    /// Displaced volume [m³], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub volume: f64,
-    /// Drag coefficient times area [m²].
+    /// Drag coefficient times area [m²], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub drag_area: f64,
-    /// Added mass [kg].
+    /// Added mass [kg], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub added_mass: f64,
+}
+
+/// What holds or loads one point of the line. At an end (s = 0 or s = the line's length) it releases the pin: the end is then
+/// held by what the constraint says and by nothing else.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Constraint {
+    /// Arc length from the fairlead [m], from 0 to the line's length.
+    #[schemars(range(min = 0.0))]
+    pub s: f64,
+    /// Directions of the first and second axis; the second is made perpendicular to the first, the third is their cross product.
+    /// Default: x and y, so that the axes are the global ones.
+    #[serde(default = "global_axes")]
+    pub axes: [Triple; 2],
+    /// Position at which springs and locks hold the point [m]. Default: at an end where the scene puts that end, elsewhere where
+    /// the point is in equilibrium without springs and locks of this constraint.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<Triple>,
+    /// Stiffness along the axes [N/m], ≥ 0. Default 0.
+    #[serde(default)]
+    #[schemars(inner(range(min = 0.0)))]
+    pub stiffness: Triple,
+    /// Damping along the axes against motion relative to the reference [N·s/m], ≥ 0. Default 0.
+    #[serde(default)]
+    #[schemars(inner(range(min = 0.0)))]
+    pub damping: Triple,
+    /// Axes along which the point does not move relative to the reference. Default: none.
+    #[serde(default)]
+    pub locked: [bool; 3],
+    /// Dead force along the global axes [N]. Default 0.
+    #[serde(default)]
+    pub force: Triple,
+    /// Mass [kg], ≥ 0, with its weight. Default 0.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub mass: f64,
+    /// Added mass [kg], ≥ 0, the same in all directions. Default 0.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub added_mass: f64,
+    /// Motion of the reference. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<ReferenceMotion>,
+}
+
+/// Motion of a constraint's reference: offset sine·sin(wt) + cosine·cos(wt) along the constraint's axes, w = 2 pi/period, times
+/// xi²(3 - 2 xi), xi = t/ramp, until `ramp` seconds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReferenceMotion {
+    /// Period [s], > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub period: f64,
+    /// Amplitudes of the sine part [m]. Default 0.
+    #[serde(default)]
+    pub sine: Triple,
+    /// Amplitudes of the cosine part [m]. Default 0.
+    #[serde(default)]
+    pub cosine: Triple,
+    /// Length of the ramp [s], ≥ 0; 0 = none. Default: 3.25 periods.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub ramp: Option<f64>,
 }
 
 /// Motion of the fairleads.
@@ -397,6 +478,9 @@ pub struct Run {
     #[serde(default = "default_duration")]
     #[schemars(range(min = 0.0))]
     pub duration: f64,
+    /// Time at which the run begins [s]; the fairlead's motion is that of this time and after. Default 0.
+    #[serde(default)]
+    pub start: f64,
     /// Interval of `timeseries.csv` [s], > 0. Default 0.1.
     #[serde(default = "default_output_step")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -463,6 +547,9 @@ fn standard_gravity() -> f64 {
 fn sea_water_density() -> f64 {
     1025.0
 }
+fn global_axes() -> [Triple; 2] {
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+}
 fn jonswap_gamma() -> f64 {
     3.3
 }
@@ -484,7 +571,7 @@ fn default_max_step() -> f64 {
 
 impl Default for Run {
     fn default() -> Self {
-        Run { duration: default_duration(), output_step: default_output_step() }
+        Run { duration: default_duration(), start: 0.0, output_step: default_output_step() }
     }
 }
 
@@ -498,6 +585,13 @@ impl Default for Solver {
             stretch: Stretch::default(),
             hydrostatic_strain: false,
         }
+    }
+}
+
+impl Run {
+    /// Time at which the run ends [s].
+    pub fn end(&self) -> f64 {
+        self.start + self.duration
     }
 }
 

@@ -31,7 +31,7 @@ impl Scheme for AdamsMoulton {
         predict(from, h, &mut next.a);
         next.v.set_sum([(1.0, &start.v), (0.5 * h, &start.a), (0.5 * h, &next.a)]);
         next.u.set_sum([(1.0, &start.u), (0.5 * h, &start.v), (0.5 * h, &next.v)]);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.prescribe(next, from.clock_after(h));
         bench.solve(&weights, next)?;
 
         let share = h * h / 12.0;

@@ -2,6 +2,7 @@
 
 use crate::rod::state::{Field, State};
 use crate::scene::types;
+use crate::sea::clock::Clock;
 use crate::solve::esdirk::{Esdirk, TR_BDF2};
 use crate::solve::newton::{Criteria, Stall};
 use crate::solve::scheme::{self, Bench, Moment, Scheme, Stages};
@@ -90,11 +91,11 @@ impl Controller {
         until: f64,
         mut accepted: impl FnMut(&Moment, &Leg),
     ) -> Result<(), Failure> {
-        let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.time) * 0.5f64.powi(HALVINGS);
+        let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.state.clock.now) * 0.5f64.powi(HALVINGS);
         let controlled = demands.fixed_step.is_none();
         let mut halved = false;
-        while until - moment.time > 1e-12 * until.abs().max(1.0) {
-            let remaining = until - moment.time;
+        while until - moment.state.clock.now > 1e-12 * until.abs().max(1.0) {
+            let remaining = until - moment.state.clock.now;
             let wanted = demands.fixed_step.filter(|_| !halved).unwrap_or(moment.step.min(demands.max_step));
             let count = (remaining / wanted - 1e-6).ceil().max(1.0);
             let h = remaining / count;
@@ -111,7 +112,7 @@ impl Controller {
                     let rough = controlled && ratio > 1.2;
                     self.tally.unresolved += usize::from(rough);
                     self.tally.error = self.tally.error.max(ratio);
-                    self.accept(moment, h, if count == 1.0 { until } else { moment.time + h });
+                    self.accept(moment, h, if count == 1.0 { until } else { moment.state.clock.now + h });
                     moment.guard = if rough { GUARDED_STEPS } else { moment.guard.saturating_sub(1) };
                     moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
                     halved = false;
@@ -132,12 +133,12 @@ impl Controller {
                     halved = true;
                     bench.newton.forget();
                     if moment.step < smallest {
-                        return Err(Failure { time: moment.time + h, step: h, stall: failed.err() });
+                        return Err(Failure { time: moment.state.clock.now + h, step: h, stall: failed.err() });
                     }
                 }
             }
         }
-        moment.time = until;
+        moment.state.clock.now = until;
         Ok(())
     }
 
@@ -152,7 +153,7 @@ impl Controller {
         for (number, leg) in legs.iter().enumerate() {
             let scheme: &mut dyn Scheme = if leg.guarded { &mut self.guard } else { self.scheme.as_mut() };
             scheme.step(bench, change, leg.h, &mut self.next)?;
-            let time = change.time + leg.h;
+            let time = change.state.clock.now + leg.h;
             self.accept(change, leg.h, time);
             accepted(change, number);
         }
@@ -165,7 +166,7 @@ impl Controller {
         std::mem::swap(&mut moment.state.u, &mut self.next.u);
         std::mem::swap(&mut moment.state.v, &mut self.next.v);
         moment.last_step = h;
-        moment.time = time;
+        moment.state.clock.now = time;
     }
 }
 
@@ -177,5 +178,6 @@ fn next_step(h: f64, ratio: f64, order: f64) -> f64 {
 
 /// A moment at rest.
 pub fn at_rest(nodes: usize, time: f64, step: f64) -> Moment {
-    Moment { time, state: State::new(nodes), earlier: Field::new(nodes), last_step: 0.0, step, guard: 0 }
+    let state = State { clock: Clock::at_rest(time), ..State::new(nodes) };
+    Moment { state, earlier: Field::new(nodes), last_step: 0.0, step, guard: 0 }
 }

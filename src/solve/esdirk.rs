@@ -106,7 +106,7 @@ impl Esdirk {
         for j in 0..i {
             next.u.add(h * tableau.below[i][j], &self.velocities[j]);
         }
-        bench.prescribe(next, &bench.path.at(from.time + tableau.nodes[i] * h));
+        bench.prescribe(next, from.clock_after(tableau.nodes[i] * h));
         let weights = Weights { u: diagonal * diagonal, v: diagonal, a: 1.0 };
         bench.solve(&weights, next)?;
         self.velocities[i].copy_from(&next.v);

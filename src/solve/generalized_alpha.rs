@@ -50,11 +50,12 @@ impl Scheme for GeneralizedAlpha {
             next.u.set_sum([(1.0, &start.u), (h, &start.v), (square * (0.5 - BETA), &start.a), (square * BETA, &next.a)]);
         };
         finish(next);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.prescribe(next, from.clock_after(h));
         blend(&mut self.between.u, ALPHA_F, &next.u, &start.u);
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
-        let driving = bench.path.at(from.time + (1.0 - ALPHA_F) * h).acceleration;
+        self.between.clock = from.clock_after((1.0 - ALPHA_F) * h);
+        let driving = bench.path.at(self.between.clock.now).acceleration;
         self.between.a.set_position(bench.line.last(), &driving);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };
         bench.solve(&weights, &mut self.between)?;
@@ -62,7 +63,7 @@ impl Scheme for GeneralizedAlpha {
         let whole = 1.0 / (1.0 - ALPHA_M);
         next.a.set_sum([(whole, &self.between.a), (-ALPHA_M * whole, &start.a)]);
         finish(next);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.prescribe(next, from.clock_after(h));
         let share = h * h * (BETA - 1.0 / 6.0);
         self.error.set_sum([(share, &next.a), (-share, &start.a)]);
         bench.filter(next, &mut self.error, &mut self.scratch);

@@ -68,13 +68,14 @@ pub fn outputs(line: &dyn Line, state: &State, time: f64, work: f64) -> Outputs 
 }
 
 /// Change of the outputs for a change of the state, by a central difference of the output functions with a step of ± `step` times
-/// the change. Time and work are zero.
-pub fn along(line: &dyn Line, state: &State, change: &State, step: f64) -> Outputs {
+/// the change, of which `seconds` is the change of time. Time and work are zero.
+pub fn along(line: &dyn Line, state: &State, change: &State, seconds: f64, step: f64) -> Outputs {
     let moved = |factor: f64| {
         let mut moved = state.clone();
         moved.u.add(factor, &change.u);
         moved.v.add(factor, &change.v);
         moved.a.add(factor, &change.a);
+        moved.clock.now += factor * seconds;
         outputs(line, &moved, 0.0, 0.0)
     };
     let (after, before) = (moved(step), moved(-step));

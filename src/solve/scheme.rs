@@ -4,19 +4,18 @@ use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
 use crate::scene::types;
+use crate::sea::clock::Clock;
 use crate::solve::adams_moulton::AdamsMoulton;
 use crate::solve::esdirk::{ARK3, Esdirk};
 use crate::solve::generalized_alpha::GeneralizedAlpha;
-use crate::solve::motion::{Kinematics, Path};
+use crate::solve::motion::Path;
 use crate::solve::newton::{Criteria, Newton, Stall, motion};
 use crate::solve::tangent::{LinearStage, SolvedStage};
 
 /// The line in time: the state and what the predictor remembers of the step before.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
-    /// Time [s].
-    pub time: f64,
-    /// Unknowns and rates.
+    /// Unknowns and rates, and their time.
     pub state: State,
     /// Accelerations one step before.
     pub earlier: Field,
@@ -26,6 +25,13 @@ pub struct Moment {
     pub step: f64,
     /// Steps still to be taken by the L-stable method.
     pub guard: u32,
+}
+
+impl Moment {
+    /// The clock after `span` seconds.
+    pub fn clock_after(&self, span: f64) -> Clock {
+        Clock { now: self.state.clock.now + span, ..self.state.clock }
+    }
 }
 
 /// What a step works with.
@@ -53,9 +59,10 @@ pub enum Stages<'a> {
 }
 
 impl Bench<'_> {
-    /// Puts the fairlead where the path has it.
-    pub fn prescribe(&self, state: &mut State, at: &Kinematics) {
-        let last = self.line.last();
+    /// Sets a state to a time, and its fairlead where the path has it then.
+    pub fn prescribe(&self, state: &mut State, clock: Clock) {
+        let (last, at) = (self.line.last(), self.path.at(clock.now));
+        state.clock = clock;
         state.u.set_position(last, &at.position);
         state.v.set_position(last, &at.velocity);
         state.a.set_position(last, &at.acceleration);

@@ -225,7 +225,7 @@ impl Simulation {
                 Ok(())
             }
             Err(failure) => {
-                let stuck = self.stuck(&failure, path, before.0.time);
+                let stuck = self.stuck(&failure, path, before.0.state.clock.now);
                 (self.moment, self.work, self.fresh) = before;
                 self.newton.forget();
                 Err(Error::Step(Box::new(stuck)))
@@ -254,13 +254,13 @@ impl Simulation {
         if !std::mem::take(&mut self.fresh) {
             return Ok(());
         }
-        let (time, criteria) = (self.moment.time, self.demands.criteria);
+        let (time, criteria) = (self.moment.state.clock.now, self.demands.criteria);
         let mut bench = Bench { line: self.line.as_ref(), newton: &mut self.newton, path, criteria, stages: Stages::Solve };
         begin(&mut bench, &mut self.moment).map_err(|stall| Failure { time, step: 0.0, stall: Some(stall) })
     }
 
     fn check_path(&self, until: f64, path: &Path) -> Result<(), Error> {
-        let (time, length) = (self.moment.time, self.line.mesh().length);
+        let (time, length) = (self.moment.state.clock.now, self.line.mesh().length);
         let fairlead = self.moment.state.u.position(self.line.last());
         let (from, to) = (path.at(time), path.at(until));
         let jump = (from.position - fairlead).norm();
@@ -281,7 +281,7 @@ impl Simulation {
             zone: Zone::Fairlead,
             cause,
             fairlead_speed: to.velocity.norm(),
-            last_good_time: self.moment.time,
+            last_good_time: self.moment.state.clock.now,
         })))
     }
 
@@ -351,8 +351,8 @@ impl Simulation {
             jerk.set_sum([(1.0, &state.a), (-1.0, &moment.earlier)]);
             jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
         }
-        let rate = State { u: state.v.clone(), v: state.a.clone(), a: jerk };
-        let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0e-4);
+        let rate = State { clock: state.clock, u: state.v.clone(), v: state.a.clone(), a: jerk };
+        let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0, 1.0e-4);
         let velocity = state.v.position(self.line.last());
         (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));
         rates
@@ -373,14 +373,14 @@ impl Simulation {
             return Ok(Vec::new());
         }
         let outcome = self.differentiate_from_here(until, path, directions);
-        let stuck = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, from.moment.time))));
+        let stuck = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, from.moment.state.clock.now))));
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
         stuck
     }
 
     fn differentiate_from_here(&mut self, until: f64, path: &Path, directions: &[Path]) -> Result<Vec<Outputs>, Failure> {
-        let (time, line, criteria) = (self.moment.time, self.line.as_ref(), self.demands.criteria);
+        let (time, line, criteria) = (self.moment.state.clock.now, self.line.as_ref(), self.demands.criteria);
         let failed = |stall| Failure { time, step: 0.0, stall: Some(stall) };
         let mut stages = Vec::new();
         let mut legs = Vec::new();
@@ -415,14 +415,14 @@ impl Simulation {
                     before = now;
                 })
                 .map_err(failed)?;
-            derivatives.push(Outputs { work, ..outputs::along(line, &self.moment.state, &change.state, 1.0e-4) });
+            derivatives.push(Outputs { work, ..outputs::along(line, &self.moment.state, &change.state, 0.0, 1.0e-4) });
         }
         Ok(derivatives)
     }
 
     /// Outputs now.
     pub fn outputs(&self) -> Outputs {
-        outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.time, self.work)
+        outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.state.clock.now, self.work)
     }
 
     /// Nodes now, from the fairlead.
@@ -477,8 +477,8 @@ impl Simulation {
 
 /// The fairlead takes up the velocity and acceleration of its path, the line the accelerations that fit.
 fn begin(bench: &mut Bench, moment: &mut Moment) -> Result<(), Stall> {
-    let now = bench.path.at(moment.time);
-    bench.prescribe(&mut moment.state, &now);
+    let now = moment.state.clock;
+    bench.prescribe(&mut moment.state, now);
     bench.accelerate(&mut moment.state)
 }
 

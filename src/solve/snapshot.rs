@@ -1,6 +1,7 @@
 //! The complete state of a line in time as plain data, and as bytes.
 
 use crate::rod::state::{COMPONENTS, Field, State};
+use crate::sea::clock::Clock;
 use crate::solve::scheme::Moment;
 use crate::solve::simulation::LastStep;
 
@@ -25,7 +26,7 @@ impl Snapshot {
         let (m, last) = (&self.moment, &self.last);
         let words =
             [self.nodes() as u64, u64::from(self.fresh), u64::from(m.guard), last.substeps as u64, last.newton_iterations as u64];
-        let scalars = [m.time, m.last_step, m.step, self.work, self.error, last.error_estimate];
+        let scalars = [m.state.clock.now, m.state.clock.start, m.last_step, m.step, self.work, self.error, last.error_estimate];
         let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier];
         let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).map(|x| x.to_bits());
         words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
@@ -35,7 +36,7 @@ impl Snapshot {
     pub fn from_bytes(bytes: &[u8]) -> Option<Snapshot> {
         let mut words = bytes.chunks_exact(8).map(|chunk| chunk.try_into().map(u64::from_le_bytes).unwrap_or(0));
         let nodes = usize::try_from(words.next()?).ok()?;
-        let expected = nodes.checked_mul(4 * COMPONENTS)?.checked_add(11)?.checked_mul(8)?;
+        let expected = nodes.checked_mul(4 * COMPONENTS)?.checked_add(12)?.checked_mul(8)?;
         if bytes.len() != expected || nodes < 2 {
             return None;
         }
@@ -47,8 +48,8 @@ impl Snapshot {
         let guard = u32::try_from(words.next()?).ok()?;
         let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
-        let (time, last_step, step, work, error, error_estimate) =
-            (number()?, number()?, number()?, number()?, number()?, number()?);
+        let clock = Clock { now: number()?, start: number()? };
+        let (last_step, step, work, error, error_estimate) = (number()?, number()?, number()?, number()?, number()?);
         let mut field = || {
             let mut field = Field::new(nodes);
             for c in 0..COMPONENTS {
@@ -60,7 +61,7 @@ impl Snapshot {
         };
         let (u, v, a, earlier) = (field()?, field()?, field()?, field()?);
         Some(Snapshot {
-            moment: Moment { time, state: State { u, v, a }, earlier, last_step, step, guard },
+            moment: Moment { state: State { clock, u, v, a }, earlier, last_step, step, guard },
             work,
             fresh,
             error,

@@ -12,6 +12,7 @@ use moorline::rod::seabed::{Plane, Resistance};
 use moorline::rod::state::{COMPONENTS, Field, State};
 use moorline::rod::touching::Ground;
 use moorline::scene::types;
+use moorline::sea::clock::Clock;
 use moorline::solve::controller::{self, Controller, Demands};
 use moorline::solve::motion::Path;
 use moorline::solve::newton::{Criteria, Newton, motion};
@@ -68,6 +69,7 @@ pub fn material(ea: f64, mass: f64, weight: f64) -> Properties {
         drag_tangential: 0.0,
         added_normal: 0.0,
         added_tangential: 0.0,
+        seabed_stiffness: None,
     }
 }
 
@@ -268,11 +270,11 @@ impl Rig {
         let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Solve };
         let mut moment: Moment = controller::at_rest(line.mesh().nodes(), 0.0, step);
         moment.state = self.state.clone();
-        bench.prescribe(&mut moment.state, &path.at(0.0));
+        bench.prescribe(&mut moment.state, Clock::at_rest(0.0));
         bench.accelerate(&mut moment.state).expect("regular mass matrix");
         let mut controller = Controller::new(scheme, line.mesh().nodes());
-        let outcome =
-            controller.advance(&mut bench, &demands, &mut moment, until, |moment, _| watch(moment.time, &moment.state, line));
+        let outcome = controller
+            .advance(&mut bench, &demands, &mut moment, until, |moment, _| watch(moment.state.clock.now, &moment.state, line));
         if let Err(failure) = outcome {
             panic!("no step: {failure:?}");
         }
