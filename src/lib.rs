@@ -61,6 +61,8 @@ pub mod rod {
 pub mod sea {
     pub mod clock;
     pub mod current;
+    pub mod spectrum;
+    pub mod waves;
 }
 
 /// Statics and time.

@@ -59,6 +59,32 @@ pub trait Real:
     /// Whether any lane is greater than zero.
     fn any_positive(self) -> bool;
 
+    /// The number in the first lane.
+    #[inline(always)]
+    fn first(self) -> f64 {
+        self.lanes()[0]
+    }
+
+    /// The largest number in any lane.
+    #[inline(always)]
+    fn highest(self) -> f64 {
+        self.lanes()[..Self::LANES].iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The sum of all lanes.
+    #[inline(always)]
+    fn total(self) -> f64 {
+        self.lanes().iter().sum()
+    }
+
+    /// The numbers in order; zeros beyond the last lane.
+    #[inline(always)]
+    fn lanes(self) -> [f64; MOST_LANES] {
+        let mut lanes = [0.0; MOST_LANES];
+        self.store(&mut lanes, 0);
+        lanes
+    }
+
     /// Adds to consecutive numbers from place `at` of a slice.
     #[inline(always)]
     fn add_to(self, cpu: Self::Cpu, to: &mut [f64], at: usize) {

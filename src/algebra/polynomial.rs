@@ -52,6 +52,12 @@ impl Cubic {
         Cubic([y0, y0 + d0 / 3.0, y1 - d1 / 3.0, y1])
     }
 
+    /// The cubic with given values at x = 0, ⅓, ⅔, 1.
+    pub fn through(y: [f64; 4]) -> Cubic {
+        let control = |near: f64, next: f64, far: f64, end: f64| (18.0 * next - 5.0 * near - 9.0 * far + 2.0 * end) / 6.0;
+        Cubic([y[0], control(y[0], y[1], y[2], y[3]), control(y[3], y[2], y[1], y[0]), y[3]])
+    }
+
     /// Value at x (de Casteljau, stable).
     pub fn at(&self, x: f64) -> f64 {
         let b = &self.0;
@@ -198,6 +204,14 @@ mod tests {
         for (found, exact) in [(parts[0].from, 0.2), (parts[0].to, 0.5), (parts[1].from, 0.9), (parts[1].to, 1.0)] {
             assert!((found - exact).abs() < 1e-13, "{found} {exact}");
         }
+    }
+
+    /// A cubic is known by its values at four places, to rounding.
+    #[test]
+    fn a_cubic_through_its_values_is_the_cubic() {
+        let cubic = Cubic([1.0, -2.0, 0.5, 3.0]);
+        let again = Cubic::through([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|x| cubic.at(x)));
+        (0..4).for_each(|k| assert!((again.0[k] - cubic.0[k]).abs() < 1e-14, "{again:?}"));
     }
 
     /// A parabola that only just dips below zero between its ends is found although both ends are above.

@@ -87,8 +87,8 @@ pub struct Table {
 const SLACK_FRICTION: f64 = 0.05;
 
 impl Table {
-    /// The properties of a mesh; `surface`: there is air above z = 0.
-    pub fn new(mesh: &Mesh, surface: bool) -> Table {
+    /// The properties of a mesh; `surface`: there is air above, and this is the height below which the surface never falls [m].
+    pub fn new(mesh: &Mesh, surface: Option<f64>) -> Table {
         let elements = mesh.elements.len();
         let stride = padded(elements + 1);
         let mut data = vec![0.0; PROPERTIES * stride + MOST_LANES];
@@ -102,7 +102,7 @@ impl Table {
             put(Property::Mass, e, p.mass);
             put(Property::WeightInAir, e, p.weight_in_air);
             put(Property::Buoyancy, e, p.weight_in_air - p.weight);
-            put(Property::Waterline, e, if surface { -0.5 * p.diameter } else { f64::INFINITY });
+            put(Property::Waterline, e, surface.map_or(f64::INFINITY, |lowest| lowest - 0.5 * p.diameter));
             put(Property::Ea, e, p.ea);
             put(Property::Damping, e, p.damping);
             put(Property::Floor, e, p.tension_floor());
@@ -151,6 +151,7 @@ impl Table {
             drag_tangential: self.get(Property::DragTangential, e),
             added_normal: self.get(Property::AddedNormal, e),
             added_tangential: self.get(Property::AddedTangential, e),
+            buoyancy: self.get(Property::Buoyancy, e),
         }
     }
 
@@ -189,6 +190,7 @@ impl<F: Real> Batch<'_, F> {
             drag_tangential: self.get(Property::DragTangential),
             added_normal: self.get(Property::AddedNormal),
             added_tangential: self.get(Property::AddedTangential),
+            buoyancy: self.get(Property::Buoyancy),
         }
     }
 }
@@ -234,12 +236,6 @@ impl<F: Real> Ends<F> {
         self.a.scale_add(n[0], self.da.scale_add(n[1], self.b.scale_add(n[2], self.db.scale(n[3]))))
     }
 
-    /// Height (third component) where the shape functions are `n`.
-    #[inline(always)]
-    pub fn combine_z(&self, n: &[f64; 4]) -> F {
-        self.a.z.scale_add(n[0], self.da.z.scale_add(n[1], self.b.z.scale_add(n[2], self.db.z * n[3])))
-    }
-
     /// Bézier control values of the component along a vector: the curve lies between the least and the greatest of them.
     #[inline(always)]
     pub fn control_values(&self, direction: &Vector3<f64>) -> [F; 4] {
@@ -276,6 +272,7 @@ pub struct Acting<F> {
 
 /// Everything that the loop over the elements reads.
 pub(in crate::rod) struct Source<'a, W> {
+    pub clock: Clock,
     pub table: [&'a [f64]; PROPERTIES],
     pub water: &'a W,
     bed: Option<&'a Bed>,
@@ -286,7 +283,7 @@ pub(in crate::rod) struct Source<'a, W> {
 
 impl<'a, W> Source<'a, W> {
     pub fn new(table: &'a Table, water: &'a W, bed: Option<&'a Bed>, at: &'a Motion) -> Self {
-        Source { table: table.rows(), water, bed, u: at.u.rows(), v: at.v.rows(), a: at.a.rows() }
+        Source { clock: at.clock, table: table.rows(), water, bed, u: at.u.rows(), v: at.v.rows(), a: at.a.rows() }
     }
 }
 
@@ -325,7 +322,7 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
         x.z = x.z + weight;
         if W::PRESENT {
             let velocity = v.combine(&shape.value);
-            let point = PointMotion { direction, height: u.combine_z(&shape.value), velocity, acceleration };
+            let point = PointMotion { clock: source.clock, direction, place: u.combine(&shape.value), velocity, acceleration };
             x = morison::force(cpu, source.water, &coefficients, &point).mul_add(-wet, x);
         }
         let x = x * w;

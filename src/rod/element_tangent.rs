@@ -194,8 +194,9 @@ fn batch_tangent<F: Real, S: Stretch, W: Water, B: Bending>(
         };
         if W::PRESENT {
             let motion = PointMotion {
+                clock: source.clock,
                 direction,
-                height: u.combine_z(&shape.value),
+                place: u.combine(&shape.value),
                 velocity: v.combine(&shape.value),
                 acceleration: a.combine(&shape.value),
             };

@@ -86,7 +86,7 @@ impl Supports {
 impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
-        let table = Table::new(&mesh, surface.is_some());
+        let table = Table::new(&mesh, surface.as_ref().map(|_| water.lowest_surface()));
         let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();

@@ -6,12 +6,13 @@
 use crate::rod::bending::{Bending, Flexible, Stiff};
 use crate::rod::line::{Line, Rod, Supports};
 use crate::rod::mesh::Mesh;
-use crate::rod::morison::{NoWater, Still, Water};
+use crate::rod::morison::{NoWater, Sea, Still, Water};
 use crate::rod::seabed::{Plane, Resistance};
 use crate::rod::stretch::{Exact, Report, Stretch};
 use crate::rod::touching::{Ground, Surface};
 use crate::scene::types::{self, Environment, Scene};
 use crate::sea::current::Current;
+use crate::sea::waves::Waves;
 
 /// Surroundings of a line, decided once.
 #[derive(Debug, Clone)]
@@ -20,6 +21,8 @@ pub struct Surroundings {
     pub stretch: types::Stretch,
     /// The current; still water is none.
     pub current: Option<Current>,
+    /// The waves.
+    pub waves: Option<Waves>,
     /// The bed.
     pub ground: Option<Ground>,
     /// The water surface, where it is pierced.
@@ -44,6 +47,7 @@ impl Surroundings {
         Surroundings {
             stretch: scene.solver.stretch,
             current: (!current.is_still()).then_some(current),
+            waves: Waves::of(&scene.environment),
             ground: Some(ground(&scene.environment, mesh)),
             surface: (scene.environment.surface == types::Surface::Pierced).then(|| Surface::new(mesh)),
         }
@@ -67,7 +71,10 @@ fn with_bending<S: Stretch>(mesh: Mesh, surroundings: Surroundings, supports: Su
 }
 
 fn with_water<S: Stretch, B: Bending>(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
-    if !feels_water(&mesh) {
+    if let Some(waves) = surroundings.waves.clone() {
+        let current = surroundings.current.clone().unwrap_or_default();
+        finish::<S, Sea, B>(mesh, Sea { waves, current }, surroundings, supports)
+    } else if !feels_water(&mesh) {
         finish::<S, NoWater, B>(mesh, NoWater, surroundings, supports)
     } else if let Some(current) = surroundings.current.clone() {
         finish::<S, Current, B>(mesh, current, surroundings, supports)
@@ -115,6 +122,18 @@ pub fn decisions(scene: &Scene, mesh: &Mesh) -> Vec<Decision> {
             "the scene gives a profile",
             "the water stands still",
         ),
+        match Waves::of(&scene.environment) {
+            Some(waves) => {
+                let kind = if waves.components() == 1 { "1 component" } else { "components" };
+                let count = if waves.components() == 1 { String::new() } else { format!("{} ", waves.components()) };
+                let reach = match waves.floor() {
+                    floor if floor > -scene.environment.depth => format!("skipped on what lies below z = {floor:.0} m"),
+                    _ => "they reach down to the bed".to_string(),
+                };
+                Decision { physics: "waves", on: true, reason: format!("{count}{kind}; {reach}") }
+            }
+            None => decide("waves", false, "", "the scene gives none"),
+        },
         decide("seabed", true, "elements that touch it pay for it, others only for a look at their height", ""),
         decide("seabed damping", scene.environment.seabed.damping > 0.0, "seabed.damping > 0", "seabed.damping is 0"),
         decide("water surface", pierced, "surface is pierced: elements that rise above it pay for it", "surface is none"),

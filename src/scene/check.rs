@@ -6,7 +6,7 @@
 
 use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;
-use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Scheme, Triple};
+use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Scheme, Triple, Waves};
 
 /// Largest size of any number.
 const LARGEST: f64 = 1.0e15;
@@ -14,6 +14,8 @@ const LARGEST: f64 = 1.0e15;
 const SMALLEST: f64 = 1.0e-12;
 /// Most elements of a scene.
 const MOST_ELEMENTS: usize = 20_000;
+/// Most components of a sea.
+const MOST_COMPONENTS: usize = 5000;
 /// Most rows of `timeseries.csv`.
 const MOST_ROWS: f64 = 5.0e7;
 /// A motion file that begins farther than this from the scene's fairlead [m] may have other axes.
@@ -23,13 +25,14 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 26] = [
+const RULES: [Rule; 27] = [
     gravity,
     water_density,
     depth,
     seabed,
     slope,
     current,
+    waves,
     line_types_exist,
     line_type_names,
     line_type_numbers,
@@ -58,16 +61,13 @@ pub fn check(scene: &Scene, file: &str) -> Result<Vec<String>, Error> {
         rule(scene, file)?;
     }
     supported(scene, file)?;
-    Ok(unused_line_types(scene))
+    Ok(unused_line_types(scene).into_iter().chain(breaking_waves(scene)).collect())
 }
 
 /// Features that the types know and the solver does not yet: each one a block to delete.
 fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
     let unsupported =
         |place: String, feature: &str| Err(Error::Unsupported { file: file.into(), place, feature: feature.into() });
-    if scene.environment.waves.is_some() {
-        return unsupported("environment.waves".into(), "waves; remove them for still water");
-    }
     if scene.environment.seabed.friction != 0.0 {
         return unsupported("environment.seabed.friction".into(), "friction of the seabed; set it to 0");
     }
@@ -148,6 +148,57 @@ fn current(scene: &Scene, file: &str) -> Result<(), Error> {
         if (pair[1].z > pair[0].z) != rising {
             return refuse(file, place, number(pair[1].z), "z must rise from row to row, or fall from row to row");
         }
+    }
+    Ok(())
+}
+
+/// Numbers of the right sign, and a surface that stays above the bed.
+fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
+    let Some(waves) = &scene.environment.waves else { return Ok(()) };
+    let at = |key: &str| format!("environment.waves.{key}");
+    let one = |place: &str, amplitude: f64, period: f64, direction: f64, phase: f64| {
+        not_negative(file, &at(&format!("{place}amplitude")), amplitude, "m")?;
+        positive(file, &at(&format!("{place}period")), period, "s")?;
+        finite(file, &at(&format!("{place}direction_deg")), &[direction])?;
+        finite(file, &at(&format!("{place}phase_deg")), &[phase])
+    };
+    let count = |count: usize| match count {
+        1..=MOST_COMPONENTS => Ok(()),
+        _ => refuse(file, at("components"), count.to_string(), format!("a sea has 1 to {MOST_COMPONENTS} components")),
+    };
+    let (key, down, ramp) = match waves {
+        Waves::Regular { amplitude, period, direction_deg, phase_deg, ramp } => {
+            one("", *amplitude, *period, *direction_deg, *phase_deg)?;
+            ("amplitude", *amplitude, ramp)
+        }
+        Waves::Jonswap { hs, tp, gamma, components, direction_deg, ramp, .. } => {
+            not_negative(file, &at("hs"), *hs, "m")?;
+            positive(file, &at("tp"), *tp, "s")?;
+            finite(file, &at("direction_deg"), &[*direction_deg])?;
+            count(*components)?;
+            if !(1.0..=20.0).contains(gamma) {
+                return refuse(
+                    file,
+                    at("gamma"),
+                    number(*gamma),
+                    "it must lie between 1 and 20; 3.3 is usual, 1 a full-grown sea",
+                );
+            }
+            ("hs", *hs, ramp)
+        }
+        Waves::Components { components, ramp } => {
+            count(components.len())?;
+            for (index, c) in components.iter().enumerate() {
+                one(&format!("components[{index}]."), c.amplitude, c.period, c.direction_deg, c.phase_deg)?;
+            }
+            ("components", components.iter().map(|c| c.amplitude).sum(), ramp)
+        }
+    };
+    not_negative(file, &at("ramp"), ramp.unwrap_or(0.0), "s; 0 means none")?;
+    let depth = scene.environment.depth;
+    if !(down < depth) {
+        let allowed = format!("waves so high would bare the seabed, which is {} m below still water", number(depth));
+        return refuse(file, at(key), format!("{} m", number(down)), allowed);
     }
     Ok(())
 }
@@ -504,6 +555,29 @@ fn unused_line_types(scene: &Scene) -> Vec<String> {
     let used = |name: &String| sections(scene).any(|(_, section)| section.line_type == *name);
     let unused = scene.line_types.keys().filter(|name| !used(name));
     unused.map(|name| format!("line_types.{name} is used by no section")).collect()
+}
+
+/// Warning: waves higher than any can stand, 0.142 of the length in deep water (Michell 1893) or 0.78 of the depth.
+fn breaking_waves(scene: &Scene) -> Vec<String> {
+    let breaks = |place: &str, amplitude: f64, period: f64| {
+        let length = scene.environment.gravity * period * period / std::f64::consts::TAU;
+        let highest = (0.142 * length).min(0.78 * scene.environment.depth);
+        (2.0 * amplitude > highest).then(|| {
+            let (height, period, highest) = (number(2.0 * amplitude), number(period), number((100.0 * highest).round() / 100.0));
+            format!(
+                "{place}: a wave {height} m high of {period} s would break at {highest} m; linear theory does not hold for it"
+            )
+        })
+    };
+    match &scene.environment.waves {
+        Some(Waves::Regular { amplitude, period, .. }) => breaks("environment.waves", *amplitude, *period).into_iter().collect(),
+        Some(Waves::Components { components, .. }) => {
+            let place = |index: usize| format!("environment.waves.components[{index}]");
+            components.iter().enumerate().filter_map(|(index, c)| breaks(&place(index), c.amplitude, c.period)).collect()
+        }
+        Some(Waves::Jonswap { hs, tp, .. }) => breaks("environment.waves", 0.5 * hs, *tp).into_iter().collect(),
+        None => Vec::new(),
+    }
 }
 
 /// Warnings about a motion file named `path`: it begins elsewhere than the fairlead, or does not cover the run.

@@ -93,7 +93,7 @@ pub fn uniform(properties: Properties, length: f64, elements: usize) -> Mesh {
 
 /// No water, no bed, no surface.
 pub fn nothing() -> Surroundings {
-    Surroundings { stretch: types::Stretch::Exact, current: None, ground: None, surface: None }
+    Surroundings { stretch: types::Stretch::Exact, current: None, waves: None, ground: None, surface: None }
 }
 
 /// A flat bed at height `level`, of the same resistance everywhere, touched `onset` above its level.
