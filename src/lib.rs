@@ -42,6 +42,7 @@ pub mod scene {
 pub mod rod {
     pub mod bending;
     pub mod catenary;
+    pub mod elasticity;
     pub mod element;
     pub mod element_tangent;
     pub mod grading;

@@ -203,13 +203,13 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     ("5075.2591}", r#"5075.2591, "friction": 0.5}"#, &["environment.seabed.friction", "does not support friction"]),
     (
         r#""damping": 4.0e-4"#,
-        r#""tension_strain": [[0, 0], [0.02, 1e6]]"#,
-        &["line_types.chain.tension_strain", "does not support"],
+        r#""tension_strain": [[0, 0], [0.02, 1e6], [0.01, 2e6]]"#,
+        &["line_types.chain.tension_strain[2]", "[0.01, 2e6]", "must rise"],
     ),
     (
         r#""damping": 4.0e-4"#,
-        r#""inner_fluid": {"density": 800, "area": 0.01}"#,
-        &["line_types.chain.inner_fluid", "does not support"],
+        r#""inner_fluid": {"density": -800, "area": 0.01}"#,
+        &["line_types.chain.inner_fluid.density", "-800", "must be 0 or greater"],
     ),
     (
         r#""name": "line","#,

@@ -193,9 +193,11 @@ struct Tables {
 impl Tables {
     fn create(files: &Files, record: &Record) -> Result<Tables, Error> {
         let names: Vec<&str> = record.lines.iter().map(|line| line.name.as_str()).collect();
+        let scene = &record.scene;
+        let walls = scene.solver.hydrostatic_strain || scene.line_types.values().any(|line_type| line_type.inner_fluid.is_some());
         Ok(Tables {
             time_series: TimeSeries::new(tables::create(&files.time_series)?, &files.time_series, &names)?,
-            nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes)?,
+            nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes, walls)?,
         })
     }
 

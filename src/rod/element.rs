@@ -11,6 +11,7 @@ use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
 use crate::algebra::polynomial::Cubic;
 use crate::algebra::shape::{GAUSS3, SHAPES3};
 use crate::rod::bending::Bending;
+use crate::rod::elasticity::Curves;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::seabed::Bed;
@@ -79,6 +80,7 @@ pub struct Table {
     elements: usize,
     stride: usize,
     data: Vec<f64>,
+    curves: Curves,
     /// What the processor can do.
     pub processor: Arch,
 }
@@ -113,7 +115,7 @@ impl Table {
             put(Property::AddedNormal, e, p.added_normal);
             put(Property::AddedTangential, e, p.added_tangential);
         }
-        Table { elements, stride, data, processor: Arch::new() }
+        Table { elements, stride, data, curves: Curves::new(mesh), processor: Arch::new() }
     }
 
     /// Number of elements, joints included.
@@ -155,9 +157,28 @@ impl Table {
         }
     }
 
-    fn axial(&self, e: usize) -> Axial<f64> {
-        Batch::<f64> { cpu: (), rows: &self.rows(), e }.axial()
+    /// Axial properties of a point of element `e`, at a slope and a height.
+    fn axial<S: Stretch>(&self, e: usize, slope: Vector3<f64>, z: f64) -> Axial<f64> {
+        let axial = Batch::<f64> { cpu: (), rows: &self.rows(), e }.axial();
+        with_curve::<f64, S>(axial, (), &self.curves, e, &Direction::of(slope.into()), z)
     }
+}
+
+/// Axial properties with the tension and stiffness of a point, where they come from tables.
+#[inline(always)]
+pub(in crate::rod) fn with_curve<F: Real, S: Stretch>(
+    axial: Axial<F>,
+    cpu: F::Cpu,
+    curves: &Curves,
+    e: usize,
+    direction: &Direction<F>,
+    z: F,
+) -> Axial<F> {
+    if !S::SPECIAL {
+        return axial;
+    }
+    let (elastic, stiffness) = curves.at(cpu, e, S::strain(direction), z);
+    Axial { elastic, stiffness, ..axial }
 }
 
 /// Properties of the elements of a batch.
@@ -180,6 +201,8 @@ impl<F: Real> Batch<'_, F> {
             damping: self.get(Property::Damping),
             floor: self.get(Property::Floor),
             friction: self.get(Property::Friction),
+            elastic: F::splat(self.cpu, 0.0),
+            stiffness: F::splat(self.cpu, 0.0),
         }
     }
 
@@ -273,6 +296,7 @@ pub struct Acting<F> {
 /// Everything that the loop over the elements reads.
 pub(in crate::rod) struct Source<'a, W> {
     pub clock: Clock,
+    pub curves: &'a Curves,
     pub table: [&'a [f64]; PROPERTIES],
     pub water: &'a W,
     bed: Option<&'a Bed>,
@@ -283,7 +307,16 @@ pub(in crate::rod) struct Source<'a, W> {
 
 impl<'a, W> Source<'a, W> {
     pub fn new(table: &'a Table, water: &'a W, bed: Option<&'a Bed>, at: &'a Motion) -> Self {
-        Source { clock: at.clock, table: table.rows(), water, bed, u: at.u.rows(), v: at.v.rows(), a: at.a.rows() }
+        Source {
+            clock: at.clock,
+            curves: &table.curves,
+            table: table.rows(),
+            water,
+            bed,
+            u: at.u.rows(),
+            v: at.v.rows(),
+            a: at.a.rows(),
+        }
     }
 }
 
@@ -317,6 +350,7 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
         let rate = v.combine(&shape.slope) * per_length;
         let acceleration = a.combine(&shape.value);
         let w = measure * gauss.weight;
+        let axial = with_curve::<F, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
         let n = S::force(cpu, &axial, &direction, rate) * (per_length * w);
         let mut x = acceleration * mass;
         x.z = x.z + weight;
@@ -502,16 +536,16 @@ impl<W: Water> WithSimd for Inertia<'_, W> {
 
 /// Tension at the Gauss points of every element [N], three per element.
 pub fn tensions<S: Stretch>(table: &Table, u: &Field, v: &Field, out: &mut [f64]) {
-    at_points(table, u, v, S::tension, out);
+    at_points::<S>(table, u, v, S::tension, out);
 }
 
 /// Tension at the Gauss points after a change of u, to first order in the change [N]: what the mixed method would carry on.
 pub fn linear_tensions<S: Stretch>(table: &Table, u: &Field, change: &Field, out: &mut [f64]) {
-    at_points(table, u, change, S::linear_tension, out);
+    at_points::<S>(table, u, change, S::linear_tension, out);
 }
 
 /// A law of the slopes of two fields at the Gauss points of every element, three per element.
-fn at_points(
+fn at_points<S: Stretch>(
     table: &Table,
     u: &Field,
     other: &Field,
@@ -523,7 +557,8 @@ fn at_points(
         let (ends, others) = (Ends::gather(u, e, length), Ends::gather(other, e, length));
         for (g, shape) in SHAPES3.iter().enumerate() {
             let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
-            out[3 * e + g] = law(&table.axial(e), &slope(&ends), &slope(&others));
+            let (p, z) = (slope(&ends), ends.combine(&shape.value).z);
+            out[3 * e + g] = law(&table.axial::<S>(e, p, z), &p, &slope(&others));
         }
     }
 }

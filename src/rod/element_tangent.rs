@@ -11,7 +11,7 @@ use crate::algebra::lanes::{Lanes, MOST_LANES, Real};
 use crate::algebra::shape::{GAUSS3, SHAPES3, Shape};
 use crate::algebra::tensor::Tensor;
 use crate::rod::bending::Bending;
-use crate::rod::element::{Batch, Ends, Motion, Property, Source, Table, Weights};
+use crate::rod::element::{Batch, Ends, Motion, Property, Source, Table, Weights, with_curve};
 use crate::rod::morison::{self, PointMotion, Water};
 use crate::rod::stretch::{By, Direction, Stretch};
 use pulp::{Simd, WithSimd};
@@ -186,10 +186,11 @@ fn batch_tangent<F: Real, S: Stretch, W: Water, B: Bending>(
         let direction = Direction::of(u.combine(&shape.slope) * per_length);
         let rate = v.combine(&shape.slope) * per_length;
         let geometric = geometric.map(|tensions| F::load(cpu, &tensions[g], 0));
+        let curved = with_curve::<F, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
         let mut point = PointTangent {
             load: Tensor::isotropic(cpu, mass),
             turning: Tensor::isotropic(cpu, F::splat(cpu, 0.0)),
-            axial: S::tangent(cpu, &axial, &direction, rate, geometric, by),
+            axial: S::tangent(cpu, &curved, &direction, rate, geometric, by),
             bending,
         };
         if W::PRESENT {

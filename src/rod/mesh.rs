@@ -3,6 +3,7 @@
 //! Where the axial or bending stiffness jumps between two sections, the slope must be free to jump too: there the mesh has two
 //! nodes at one position with a slope each, and between them a *joint*, an element without length that carries no load.
 
+use crate::rod::elasticity::{Elasticity, Pressures};
 use crate::scene::types::{Environment, Line, LineType, Scene};
 use std::collections::BTreeMap;
 
@@ -33,6 +34,8 @@ pub struct Mesh {
     pub sections: Vec<Properties>,
     /// Unstretched length [m].
     pub length: f64,
+    /// What the tension of each section depends on besides EA; empty: on nothing else.
+    pub elasticities: Vec<Elasticity>,
 }
 
 /// What an element is made of, per unstretched length.
@@ -69,13 +72,14 @@ impl Properties {
     pub fn of(line_type: &LineType, environment: &Environment) -> Properties {
         let (rho, g, d) = (environment.water_density, environment.gravity, line_type.diameter);
         let area = std::f64::consts::FRAC_PI_4 * d * d;
+        let contents = line_type.inner_fluid.as_ref().map_or(0.0, |fluid| fluid.density * fluid.area);
         Properties {
             ea: line_type.ea,
             ei: line_type.ei,
             damping: line_type.damping,
-            mass: line_type.mass,
-            weight_in_air: line_type.mass * g,
-            weight: line_type.weight_in_water(rho, g),
+            mass: line_type.mass + contents,
+            weight_in_air: (line_type.mass + contents) * g,
+            weight: line_type.weight_in_water(rho, g) + contents * g,
             diameter: d,
             drag_normal: 0.5 * rho * d * line_type.drag.normal,
             drag_tangential: 0.5 * rho * std::f64::consts::PI * d * line_type.drag.tangential,
@@ -115,7 +119,7 @@ impl Mesh {
                 start += length;
             }
         }
-        Mesh { elements, sections, length: start }
+        Mesh { elements, sections, length: start, elasticities: Vec::new() }
     }
 
     /// Properties of the sections of a line of a scene, from the anchor. Sections of unknown type have been refused by the check.
@@ -123,6 +127,26 @@ impl Mesh {
         let types: &BTreeMap<String, LineType> = &scene.line_types;
         let of = |name: &String| types.get(name).map(|line_type| Properties::of(line_type, &scene.environment));
         line.sections.iter().rev().filter_map(|section| of(&section.line_type)).collect()
+    }
+
+    /// What the tensions of the sections of a line depend on besides EA, from the anchor; empty if on nothing else.
+    pub fn elasticities(scene: &Scene, line: &Line) -> Vec<Elasticity> {
+        let strained = scene.solver.hydrostatic_strain;
+        let of = |line_type: &LineType| Elasticity {
+            table: line_type.tension_strain.clone(),
+            pressures: (strained || line_type.inner_fluid.is_some())
+                .then(|| Pressures::of(line_type, &scene.environment, line.fairlead[2])),
+            strained,
+        };
+        let types = line.sections.iter().rev().filter_map(|section| scene.line_types.get(&section.line_type));
+        let all: Vec<Elasticity> = types.map(of).collect();
+        if all.iter().any(|elasticity| *elasticity != Elasticity::default()) { all } else { Vec::new() }
+    }
+
+    /// What the tension of an element depends on besides EA.
+    pub fn elasticity_of(&self, element: usize) -> &Elasticity {
+        const NONE: &Elasticity = &Elasticity { table: None, pressures: None, strained: false };
+        self.elasticities.get(self.elements[element].section).unwrap_or(NONE)
     }
 
     /// Number of nodes.

@@ -4,6 +4,7 @@
 //! compiled into its loop.
 
 use crate::rod::bending::{Bending, Flexible, Stiff};
+use crate::rod::elasticity::{Elasticity, Hooke, Tabulated};
 use crate::rod::line::{Line, Rod, Supports};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{NoWater, Sea, Still, Water};
@@ -56,9 +57,13 @@ impl Surroundings {
 
 /// The line of a mesh with the physics that it needs.
 pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
-    match surroundings.stretch {
-        types::Stretch::Exact => with_bending::<Exact>(mesh, surroundings, supports),
-        types::Stretch::Report => with_bending::<Report>(mesh, surroundings, supports),
+    let special = mesh.elasticities.iter().any(Elasticity::is_special);
+    // Lines with tables or pressures are few: they carry the terms of bending whether they need them or not.
+    match (surroundings.stretch, special) {
+        (types::Stretch::Exact, false) => with_bending::<Exact<Hooke>>(mesh, surroundings, supports),
+        (types::Stretch::Report, false) => with_bending::<Report<Hooke>>(mesh, surroundings, supports),
+        (types::Stretch::Exact, true) => with_water::<Exact<Tabulated>, Stiff>(mesh, surroundings, supports),
+        (types::Stretch::Report, true) => with_water::<Report<Tabulated>, Stiff>(mesh, surroundings, supports),
     }
 }
 
@@ -113,6 +118,18 @@ pub fn decisions(scene: &Scene, mesh: &Mesh) -> Vec<Decision> {
     let pierced = scene.environment.surface == types::Surface::Pierced;
     vec![
         decide("axial stretch", true, "always", ""),
+        decide(
+            "tension–strain tables",
+            scene.line_types.values().any(|line_type| line_type.tension_strain.is_some()),
+            "a line type has a table",
+            "Hooke's law with ea",
+        ),
+        decide(
+            "strain from pressure",
+            scene.solver.hydrostatic_strain,
+            "solver.hydrostatic_strain is true",
+            "strain follows from effective tension",
+        ),
         decide("axial damping", any(|p| p.damping > 0.0), "a line type has damping > 0", "damping is 0"),
         decide("bending", any(|p| p.ei > 0.0), "a line type has ei > 0", "ei is 0 everywhere: the line is flexible"),
         decide("drag and added mass", feels_water(mesh), "a line type has coefficients > 0", "all coefficients are 0"),

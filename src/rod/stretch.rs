@@ -1,13 +1,13 @@
 //! Axial force of the line at a point, and its tangent.
 //!
 //! ```text
-//! δW = ∫ n·δr′ ds,   n = T t,   T = EA (e + C ė),   e = |r′| - 1,   t = r′/|r′|            (`Exact`, Hooke in engineering strain)
-//!                    n = λ r′,  λ = EA (g + C ġ),   g = (r′·r′ - 1)/2                       (`Report`, Ma & Webster 1994, eq. 2.11)
+//! δW = ∫ n·δr′ ds,   n = T t,   T = T(e) + EA C ė,   e = |r′| - 1,   t = r′/|r′|           (`Exact`, engineering strain)
+//!                    n = λ r′,  λ = T(g) + EA C ġ,   g = (r′·r′ - 1)/2                      (`Report`, Ma & Webster 1994, eq. 2.11)
 //! ```
 //!
 //! r′ slope by unstretched arc length [-], e strain [-], ė its rate [1/s], T effective tension [N] positive pulling, EA [N],
-//! C Kelvin–Voigt time constant [s]. A line without bending stiffness carries no compression: T ≥ 0 (`floor` = 0); the
-//! damped law with that limit is continuous and never gives energy: (T - EA max(e, 0)) ė ≥ 0.
+//! C Kelvin–Voigt time constant [s], T(e) as in `elasticity`. A line without bending stiffness carries no compression: T ≥ 0 (`floor` = 0); the
+//! damped law with that limit is continuous and never gives energy: (T - T(max(e, 0))) ė ≥ 0.
 //!
 //! An element that goes slack is bunched: its slopes have mass but no stiffness and would keep the energy of the last snap for
 //! ever. What a real line loses there in folding, a bounded friction takes up,
@@ -20,7 +20,9 @@
 
 use crate::algebra::lanes::{Real, Triple, length};
 use crate::algebra::tensor::Tensor;
+use crate::rod::elasticity::Elastic;
 use nalgebra::Vector3;
+use std::marker::PhantomData;
 
 /// Axial properties of an element.
 #[derive(Debug, Clone, Copy)]
@@ -33,15 +35,19 @@ pub struct Axial<F> {
     pub floor: F,
     /// f_s, bound of the friction of a slack element [N].
     pub friction: F,
+    /// Tension at the point without damping [N], where it comes from a table or pressures.
+    pub elastic: F,
+    /// Its change with strain [N].
+    pub stiffness: F,
 }
 
 impl<F: Real> Axial<F> {
-    /// EA and the tension of the geometric part, both zero where the line is slack.
+    /// Stiffness, EA C and the tension of the geometric part, all zero where the line is slack.
     #[inline(always)]
-    fn carried(&self, tension: F, geometric: Option<F>) -> (F, F) {
+    fn carried<E: Elastic>(&self, tension: F, geometric: Option<F>) -> (F, F, F) {
         let geometric = geometric.unwrap_or(tension);
         let on = (tension.max(geometric) - self.floor).positive();
-        (self.ea * on, geometric.max(self.floor) * on)
+        (E::stiffness(self) * on, self.ea * self.damping * on, geometric.max(self.floor) * on)
     }
 }
 
@@ -117,6 +123,10 @@ fn with_slack_tangent<F: Real>(
 
 /// A law of extension.
 pub trait Stretch: Copy + Send + Sync + 'static {
+    /// True: tension and stiffness of every point are looked up in tables.
+    const SPECIAL: bool;
+    /// Strain e or g [-].
+    fn strain<F: Real>(at: &Direction<F>) -> F;
     /// Axial force n [N] for a slope and its rate.
     fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F>;
     /// Its tangent [N]. `geometric`, where given, replaces the tension in the geometric part (mixed Newton path of statics).
@@ -134,15 +144,22 @@ pub trait Stretch: Copy + Send + Sync + 'static {
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64;
 }
 
-/// Hooke's law in engineering strain.
+/// Tension by engineering strain.
 #[derive(Debug, Clone, Copy)]
-pub struct Exact;
+pub struct Exact<E>(PhantomData<E>);
 
-impl Stretch for Exact {
+impl<E: Elastic> Stretch for Exact<E> {
+    const SPECIAL: bool = E::SPECIAL;
+
+    #[inline(always)]
+    fn strain<F: Real>(at: &Direction<F>) -> F {
+        at.stretch + -1.0
+    }
+
     #[inline(always)]
     fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F> {
-        let strain = at.stretch + -1.0;
-        let tension = law.ea * law.damping.mul_add(at.tangent.dot(rate), strain);
+        let strain = Self::strain(at);
+        let tension = (law.ea * law.damping).mul_add(at.tangent.dot(rate), E::tension(law, strain));
         with_slack_force(at.tangent * tension.max(law.floor), cpu, law, strain, rate)
     }
 
@@ -156,35 +173,42 @@ impl Stretch for Exact {
         by: By,
     ) -> Tensor<F> {
         let (t, per_stretch) = (at.tangent, at.stretch.reciprocal());
-        let tension = law.ea * law.damping.mul_add(t.dot(rate), at.stretch + -1.0);
-        let (stiffness, across) = law.carried(tension, geometric);
+        let tension = (law.ea * law.damping).mul_add(t.dot(rate), E::tension(law, Self::strain(at)));
+        let (stiffness, damping, across) = law.carried::<E>(tension, geometric);
         let across = across * per_stretch * by.slope;
-        let along = stiffness * (law.damping * by.rate + by.slope) - across;
-        let turning = (rate - t * t.dot(rate)) * (stiffness * law.damping * per_stretch * by.slope);
+        let along = stiffness * by.slope + damping * by.rate - across;
+        let turning = (rate - t * t.dot(rate)) * (damping * per_stretch * by.slope);
         let sum = Tensor::isotropic(cpu, across).add_outer(t, t.mul_add(along, turning));
         with_slack_tangent(sum, cpu, law, at, rate, by)
     }
 
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
         let stretch = length(p);
-        (law.ea * (stretch - 1.0 + law.damping * p.dot(rate) / stretch)).max(law.floor)
+        (E::tension(law, stretch - 1.0) + law.ea * law.damping * p.dot(rate) / stretch).max(law.floor)
     }
 
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
         let stretch = length(p);
-        law.ea * (stretch - 1.0 + p.dot(change) / stretch)
+        E::tension(law, stretch - 1.0) + E::stiffness(law) * p.dot(change) / stretch
     }
 }
 
-/// The 1994 report's law, linear in Green's strain.
+/// The 1994 report's law: λ by Green's strain.
 #[derive(Debug, Clone, Copy)]
-pub struct Report;
+pub struct Report<E>(PhantomData<E>);
 
-impl Stretch for Report {
+impl<E: Elastic> Stretch for Report<E> {
+    const SPECIAL: bool = E::SPECIAL;
+
+    #[inline(always)]
+    fn strain<F: Real>(at: &Direction<F>) -> F {
+        (at.slope.dot(at.slope) + -1.0) * 0.5
+    }
+
     #[inline(always)]
     fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F> {
         let p = at.slope;
-        let lambda = law.ea * law.damping.mul_add(p.dot(rate), (p.dot(p) + -1.0) * 0.5);
+        let lambda = (law.ea * law.damping).mul_add(p.dot(rate), E::tension(law, Self::strain(at)));
         with_slack_force(p * lambda.max(law.floor), cpu, law, at.stretch + -1.0, rate)
     }
 
@@ -198,19 +222,19 @@ impl Stretch for Report {
         by: By,
     ) -> Tensor<F> {
         let p = at.slope;
-        let lambda = law.ea * law.damping.mul_add(p.dot(rate), (p.dot(p) + -1.0) * 0.5);
-        let (stiffness, geometric) = law.carried(lambda, geometric);
-        let along = p * (stiffness * (law.damping * by.rate + by.slope));
-        let turning = rate * (stiffness * law.damping * by.slope);
+        let lambda = (law.ea * law.damping).mul_add(p.dot(rate), E::tension(law, Self::strain(at)));
+        let (stiffness, damping, geometric) = law.carried::<E>(lambda, geometric);
+        let along = p * (stiffness * by.slope + damping * by.rate);
+        let turning = rate * (damping * by.slope);
         let sum = Tensor::isotropic(cpu, geometric * by.slope).add_outer(p, along + turning);
         with_slack_tangent(sum, cpu, law, at, rate, by)
     }
 
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
-        (law.ea * (0.5 * (p.dot(p) - 1.0) + law.damping * p.dot(rate))).max(law.floor) * length(p)
+        (E::tension(law, 0.5 * (p.dot(p) - 1.0)) + law.ea * law.damping * p.dot(rate)).max(law.floor) * length(p)
     }
 
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
-        law.ea * (0.5 * (p.dot(p) - 1.0) + p.dot(change))
+        E::tension(law, 0.5 * (p.dot(p) - 1.0)) + E::stiffness(law) * p.dot(change)
     }
 }

@@ -25,7 +25,7 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 27] = [
+const RULES: [Rule; 29] = [
     gravity,
     water_density,
     depth,
@@ -36,6 +36,8 @@ const RULES: [Rule; 27] = [
     line_types_exist,
     line_type_names,
     line_type_numbers,
+    tension_tables,
+    inner_fluids,
     weight_given_once,
     weight_leaves_buoyancy,
     lines_exist,
@@ -71,14 +73,6 @@ fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
     if scene.environment.seabed.friction != 0.0 {
         return unsupported("environment.seabed.friction".into(), "friction of the seabed; set it to 0");
     }
-    for (name, line_type) in &scene.line_types {
-        if line_type.tension_strain.is_some() {
-            return unsupported(in_type(name, "tension_strain"), "tension–strain tables; remove it to use `ea` alone");
-        }
-        if line_type.inner_fluid.is_some() {
-            return unsupported(in_type(name, "inner_fluid"), "an inner fluid; remove it and add its mass to `mass`");
-        }
-    }
     for (number, line) in scene.lines.iter().enumerate() {
         if !line.attachments.is_empty() {
             return unsupported(format!("lines[{number}].attachments"), "clump weights and buoys; remove them");
@@ -90,9 +84,6 @@ fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
     if scene.solver.scheme == Scheme::Cable1994 {
         let others = "the scheme \"cable-1994\"; use \"adams-moulton\", \"esdirk3\" or \"generalized-alpha\"";
         return unsupported("solver.scheme".into(), others);
-    }
-    if scene.solver.hydrostatic_strain {
-        return unsupported("solver.hydrostatic_strain".into(), "strain from hydrostatic pressure; set it to false");
     }
     Ok(())
 }
@@ -243,6 +234,46 @@ fn line_type_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
         }
         if let Some(load) = line_type.breaking_load {
             positive(file, &at("breaking_load"), load, "N")?;
+        }
+    }
+    Ok(())
+}
+
+/// A table begins at [0, 0] and rises, in strain and in tension.
+fn tension_tables(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        let Some(table) = &line_type.tension_strain else { continue };
+        let place = |point: usize| format!("{}[{point}]", in_type(name, "tension_strain"));
+        let shown = |point: &[f64; 2]| format!("[{}, {}]", number(point[0]), number(point[1]));
+        if table.len() < 2 {
+            let place = in_type(name, "tension_strain");
+            return refuse(
+                file,
+                place,
+                format!("{} points", table.len()),
+                "give two or more, [strain, tension in N], from [0, 0] on",
+            );
+        }
+        if table[0] != [0.0, 0.0] {
+            return refuse(file, place(0), shown(&table[0]), "the first point is [0, 0]: no tension without strain");
+        }
+        for (point, pair) in table.windows(2).enumerate() {
+            finite(file, &place(point + 1), &pair[1])?;
+            if !(pair[1][0] > pair[0][0] && pair[1][1] > pair[0][1]) {
+                let allowed = format!("strain and tension must rise from point to point; the one before is {}", shown(&pair[0]));
+                return refuse(file, place(point + 1), shown(&pair[1]), allowed);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn inner_fluids(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        if let Some(fluid) = &line_type.inner_fluid {
+            not_negative(file, &in_type(name, "inner_fluid.density"), fluid.density, "kg/m³")?;
+            not_negative(file, &in_type(name, "inner_fluid.area"), fluid.area, "m²")?;
+            finite(file, &in_type(name, "inner_fluid.pressure"), &[fluid.pressure])?;
         }
     }
     Ok(())

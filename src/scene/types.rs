@@ -225,7 +225,8 @@ pub struct LineType {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub damping: f64,
-    /// Rising (strain, tension [N]) points that replace `ea` beyond the linear law. Default: none.
+    /// Points [strain, tension in N], rising from [0, 0], between which the tension is linear; they replace `ea`, which then acts in
+    /// `damping` alone. Beyond the last the tension goes on rising as before it. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension_strain: Option<Vec<[f64; 2]>>,
     /// Breaking load [N], > 0: a warning is given where the tension exceeds it. Default: none.
@@ -260,7 +261,7 @@ pub struct NormalTangential {
     pub tangential: f64,
 }
 
-/// Fluid inside a pipe.
+/// Fluid inside a pipe: its mass and weight are added to those of the pipe, its pressure is at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InnerFluid {
@@ -270,6 +271,9 @@ pub struct InnerFluid {
     /// Inner area [m²], ≥ 0.
     #[schemars(range(min = 0.0))]
     pub area: f64,
+    /// Pressure at the height of the fairlead [Pa]. Default 0.
+    #[serde(default)]
+    pub pressure: f64,
 }
 
 /// One mooring line from fairlead to anchor. Both ends are pinned, unless a constraint says otherwise.

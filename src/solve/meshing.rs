@@ -32,7 +32,7 @@ pub fn mesh_of(scene: &Scene, line: &Line, finer: f64) -> Mesh {
         });
         start = end;
     }
-    Mesh::new(sections, &lengths)
+    Mesh { elasticities: Mesh::elasticities(scene, line), ..Mesh::new(sections, &lengths) }
 }
 
 /// Whether the program chooses any part of the mesh.

@@ -43,6 +43,8 @@ pub struct NodeOutput {
     pub tangent: Vector3<f64>,
     /// Effective tension, positive pulling [N].
     pub tension: f64,
+    /// Tension of the wall [N], where the pressures on it are known: T - p_o A_o + p_i A_i.
+    pub wall_tension: Option<f64>,
 }
 
 /// Outputs of a state. End forces and node tensions are consistent nodal reactions, not stiffness times strain: 10 to 40 times
@@ -137,7 +139,11 @@ pub fn nodes(line: &dyn Line, state: &State) -> Vec<NodeOutput> {
         let p = state.u.slope(node);
         let tangent = if p.norm() > 0.0 { -p.normalize() } else { Vector3::zeros() };
         let tension = forces[node].norm().copysign(-forces[node].dot(&tangent));
-        NodeOutput { s: mesh.length - mesh.node_arc_length(node), position: state.u.position(node), tangent, tension }
+        let position = state.u.position(node);
+        // At the end of a section the section below counts.
+        let pressures = mesh.elasticity_of(node.min(last - 1)).pressures;
+        let wall_tension = pressures.map(|pressures| tension - pressures.force(position.z));
+        NodeOutput { s: mesh.length - mesh.node_arc_length(node), position, tangent, tension, wall_tension }
     };
     (0..=last).rev().filter(kept).map(node_output).collect()
 }

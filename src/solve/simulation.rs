@@ -177,7 +177,12 @@ impl Simulation {
         let (mesh, surroundings) = (self.line.mesh(), &self.surroundings);
         let soften = |limit: f64| {
             let mut soft = mesh.clone();
-            soft.sections.iter_mut().for_each(|section| section.ea = section.ea.min(limit));
+            for (number, section) in soft.sections.iter_mut().enumerate().filter(|(_, section)| section.ea > limit) {
+                if let Some(elasticity) = soft.elasticities.get_mut(number) {
+                    *elasticity = elasticity.scaled(limit / section.ea);
+                }
+                section.ea = limit;
+            }
             let supports = Supports::pinned(&soft);
             physics::build(soft, surroundings.clone(), supports)
         };
