@@ -4,7 +4,7 @@
 
 use moorline::error::Error;
 use moorline::scene::read::{Loaded, built_in, load, parse, schema};
-use moorline::scene::types::{Motion, Scene, Scheme, Stretch, Surface};
+use moorline::scene::types::{Motion, Scene, Scheme, Stretch, Surface, Waves};
 use moorline::scene::{check, motion_file};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -179,27 +179,47 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         r#""depth": 120.0, "current": [{"z": 0, "velocity": [1,0,0]}, {"z": -9, "velocity": [1,0,0]}, {"z": -5, "velocity": [0,0,0]}],"#,
         &["environment.current[2].z", "-5", "rise from row to row"],
     ),
-    // What is not there yet.
     (
         r#""depth": 120.0,"#,
-        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 9.0, "seed": 7},"#,
-        &["environment.waves", "does not support waves"],
+        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 9.0, "gamma": 0.5},"#,
+        &["environment.waves.gamma: 0.5 is not allowed", "between 1 and 20"],
     ),
     (
         r#""depth": 120.0,"#,
-        r#""depth": 120.0, "waves": {"kind": "components", "components": [{"amplitude": 1, "period": 9}]},"#,
-        &["does not support waves"],
+        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 0.0},"#,
+        &["environment.waves.tp: 0 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 9.0, "components": 0},"#,
+        &["environment.waves.components: 0 is not allowed", "1 to 5000"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "components", "components": []},"#,
+        &["environment.waves.components: 0 is not allowed", "1 to 5000"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "components", "components": [{"amplitude": 1, "period": 9}, {"amplitude": -1, "period": 9}]},"#,
+        &["environment.waves.components[1].amplitude: -1 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "regular", "amplitude": 2.0, "period": 10.0, "ramp": -1},"#,
+        &["environment.waves.ramp: -1 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "regular", "amplitude": 200, "period": 10.0},"#,
+        &["environment.waves.amplitude: 200 m is not allowed", "bare the seabed", "120 m"],
     ),
     (
         r#""depth": 120.0,"#,
         r#""depth": 120.0, "waves": {"kind": "regular", "amplitud": 2.0, "period": 10.0},"#,
         &["line 6", "environment.waves.amplitud", "did you mean `amplitude`"],
     ),
-    (
-        r#""depth": 120.0,"#,
-        r#""depth": 120.0, "waves": {"kind": "regular", "amplitude": 2.0, "period": 10.0},"#,
-        &["environment.waves", "does not support waves"],
-    ),
+    // What is not there yet.
     ("5075.2591}", r#"5075.2591, "friction": 0.5}"#, &["environment.seabed.friction", "does not support friction"]),
     (
         r#""damping": 4.0e-4"#,
@@ -467,11 +487,24 @@ fn the_smallest_scene_takes_every_default() {
     assert_eq!((solver.stretch, solver.hydrostatic_strain), (Stretch::Exact, false));
 }
 
+/// Source: Michell (1893): in deep water a wave breaks at 0.142 of its length, 22.2 m for 10 s.
+#[test]
+fn waves_that_would_break_are_warned_of() {
+    let warnings = |amplitude: f64| {
+        let waves = format!(r#""depth": 120.0, "waves": {{"kind": "regular", "amplitude": {amplitude}, "period": 10.0}},"#);
+        read(&edited(r#""depth": 120.0,"#, &waves), &[]).expect("a good scene").warnings
+    };
+    assert!(warnings(11.0).is_empty());
+    assert_says(&warnings(12.0).join(""), &["environment.waves", "24 m high", "10 s", "break at 22.1"], "12 m");
+}
+
 #[test]
 fn a_scene_with_every_supported_key_is_read_and_survives_writing() {
     let loaded = load(&data().join("all-keys.json"), &[]).expect("all keys are good");
     let scene = &loaded.scene;
     assert_eq!((scene.environment.seabed.slope_deg, scene.environment.surface), ([1.0, -2.0], Surface::None));
+    let Some(Waves::Regular { amplitude, phase_deg, ramp, .. }) = &scene.environment.waves else { panic!("no waves") };
+    assert_eq!((*amplitude, *phase_deg, *ramp), (2.0, 90.0, Some(15.0)));
     assert_eq!((scene.environment.current[1].z, scene.line_types["rope"].buoyancy), (-120.0, Some(170.171)));
     assert_eq!((scene.lines[0].sections[0].elements, scene.lines[1].name.as_str()), (Some(10), "line2"));
     assert_eq!(

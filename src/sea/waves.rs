@@ -10,8 +10,8 @@
 //! the local one, ∂v/∂t at constant z′, which is linear theory. Above the surface the motion is that of the surface. Every direction b is
 //! the one of travel.
 //!
-//! A component is left out where it has decayed to less than `FAINT` of its motion at the surface; what lies deeper than the longest
-//! component reaches is not looked at. Sine, cosine and exponential are polynomials, good to 3e-11, because they then run on several
+//! A component is left out where it has decayed to less than 1e-4 of its motion at the surface, counted from a trough as deep as the
+//! significant wave height; what lies deeper than the longest component reaches is not looked at. Sine, cosine and exponential are polynomials, good to 3e-11, because they then run on several
 //! numbers at once: on several places for the element loop, on several components for a single place.
 
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
@@ -54,6 +54,7 @@ pub struct Waves {
     gravity: f64,
     ramp: f64,
     crest: f64,
+    height: f64,
     longest: f64,
     processor: Arch,
 }
@@ -138,8 +139,7 @@ impl Waves {
         };
         let mut sea = Waves::new(&waves, environment.gravity, environment.depth, ramp);
         if random {
-            let variance: f64 = waves.iter().map(|wave| 0.5 * wave.amplitude * wave.amplitude).sum();
-            sea.crest = sea.crest.min(RARE * variance.sqrt());
+            sea.crest = sea.crest.min(RARE * deviation(&waves));
         }
         (sea.crest > 0.0).then_some(sea)
     }
@@ -153,8 +153,9 @@ impl Waves {
             rows.iter_mut().zip(wave.numbers(*k, depth)).for_each(|(row, number)| row[n] = number);
         }
         let crest = waves.iter().map(|wave| wave.amplitude).sum::<f64>();
+        let height = crest.min(4.0 * deviation(waves));
         let longest = numbered.first().map_or(f64::INFINITY, |(k, _)| *k);
-        Waves { count: waves.len(), rows, depth, gravity, ramp, crest, longest, processor: Arch::new() }
+        Waves { count: waves.len(), rows, depth, gravity, ramp, crest, height, longest, processor: Arch::new() }
     }
 
     /// Number of components.
@@ -162,12 +163,12 @@ impl Waves {
         self.count
     }
 
-    /// Mean number k of the waves [1/m], by energy: that of the component at √(m₂/m₀) of the spectrum, which is also their mean frequency.
+    /// The mean frequency √(m₂/m₀) of the waves by energy [rad/s], and the wave number that goes with it [1/m].
     pub fn mean(&self) -> (f64, f64) {
         let [frequency, amplitude] = [Row::Frequency, Row::Amplitude].map(|row| &self.rows[row as usize][..self.count]);
         let moment = |n: i32| frequency.iter().zip(amplitude).map(|(f, a)| a * a * f.powi(n)).sum::<f64>();
         let omega = TAU * (moment(2) / moment(0)).sqrt();
-        (wave_number(omega, self.gravity, self.depth), omega)
+        (omega, wave_number(omega, self.gravity, self.depth))
     }
 
     /// Height above and depth below still water that the surface never passes [m]: all crests together; in a random sea, `RARE` standard
@@ -178,7 +179,7 @@ impl Waves {
 
     /// Height z below which the water is taken to be at rest [m].
     pub fn floor(&self) -> f64 {
-        -self.crest + FAINT.ln() / self.longest
+        -self.height + FAINT.ln() / self.longest
     }
 
     /// g [m/s²].
@@ -239,19 +240,21 @@ impl Waves {
             ((place.z + self.depth) * self.depth * depth.reciprocal() + -self.depth).min(zero).max(F::splat(cpu, -self.depth));
         let [mut vx, mut vy, mut vz, mut ax, mut ay, mut az] = [zero; 6];
         for n in (0..self.reaching(place.z.highest())).step_by(if PLACES { 1 } else { F::LANES }) {
-            let get = |row: Row| self.get::<F, PLACES>(cpu, row, n);
             let (cos, sin) = self.angle::<F, PLACES>(cpu, time, place, n);
-            let down = decay(cpu, get(Row::Number) * z);
-            let echo = get(Row::Echo);
+            let down = decay(cpu, self.get::<F, PLACES>(cpu, Row::Number, n) * z);
+            let echo = self.get::<F, PLACES>(cpu, Row::Echo, n);
             let back = if echo.any_positive() { echo * down.reciprocal() } else { zero };
             let (level, upright) = (down + back, down - back);
-            let (speed, rate) = (get(Row::Speed), get(Row::Rate));
+            let (speed, rate) = (self.get::<F, PLACES>(cpu, Row::Speed, n), self.get::<F, PLACES>(cpu, Row::Rate, n));
             let (v, a) = (level * cos * speed, level * sin * rate);
-            let (cos_b, sin_b) = (get(Row::Cos), get(Row::Sin));
+            let (cos_b, sin_b) = (self.get::<F, PLACES>(cpu, Row::Cos, n), self.get::<F, PLACES>(cpu, Row::Sin, n));
             (vx, vy, vz) = (v.mul_add(cos_b, vx), v.mul_add(sin_b, vy), (upright * sin).mul_add(speed, vz));
             (ax, ay, az) = (a.mul_add(cos_b, ax), a.mul_add(sin_b, ay), (upright * cos).mul_add(-rate, az));
         }
-        let whole = |sum: F| if PLACES { sum } else { F::splat(cpu, sum.total()) };
+        if PLACES {
+            return ([vx, vy, vz], [ax, ay, az]);
+        }
+        let whole = |sum: F| F::splat(cpu, sum.total());
         ([vx, vy, vz].map(whole), [ax, ay, az].map(whole))
     }
 
@@ -269,9 +272,9 @@ impl Waves {
     /// cos θ and sin θ.
     #[inline(always)]
     fn angle<F: Real, const PLACES: bool>(&self, cpu: F::Cpu, time: f64, place: &Triple<F>, n: usize) -> (F, F) {
-        let get = |row: Row| self.get::<F, PLACES>(cpu, row, n);
-        let still = get(Row::Frequency).scale_add(-time, get(Row::Phase));
-        cos_sin(cpu, get(Row::X).mul_add(place.x, get(Row::Y).mul_add(place.y, still)))
+        let still = self.get::<F, PLACES>(cpu, Row::Frequency, n).scale_add(-time, self.get::<F, PLACES>(cpu, Row::Phase, n));
+        let across = self.get::<F, PLACES>(cpu, Row::Y, n).mul_add(place.y, still);
+        cos_sin(cpu, self.get::<F, PLACES>(cpu, Row::X, n).mul_add(place.x, across))
     }
 
     #[inline(always)]
@@ -282,12 +285,17 @@ impl Waves {
 
     /// How many components reach down to z.
     fn reaching(&self, z: f64) -> usize {
-        let below = -z - self.crest;
+        let below = -z - self.height;
         if below <= 0.0 {
             return self.count;
         }
         self.rows[Row::Number as usize][..self.count].partition_point(|k| k * below < -FAINT.ln())
     }
+}
+
+/// Standard deviation of the elevation [m].
+fn deviation(waves: &[Wave]) -> f64 {
+    waves.iter().map(|wave| 0.5 * wave.amplitude * wave.amplitude).sum::<f64>().sqrt()
 }
 
 impl Wave {
@@ -356,17 +364,20 @@ fn cos_sin<F: Real>(cpu: F::Cpu, turns: F) -> (F, F) {
     // Adding and taking away 1.5·2⁵² rounds to a whole number.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let half = (turns - ((turns + ROUND) + -ROUND)) * PI;
-    let square = half * half;
-    let series = |last: u32| {
-        let mut sum = F::splat(cpu, 1.0);
-        for n in (1..=last / 2).rev() {
-            let n = 2 * n + last % 2;
-            sum = (sum * square).scale_add(-1.0 / f64::from(n * (n - 1)), F::splat(cpu, 1.0));
-        }
-        sum
-    };
-    let (sin, cos) = (half * series(15), series(16));
+    let (sin, cos) = (half * series(cpu, half * half, 15), series(cpu, half * half, 16));
     ((sin * sin).scale_add(-2.0, F::splat(cpu, 1.0)), sin * cos * 2.0)
+}
+
+/// The series of sin x / x (`last` odd) or of cos x (`last` even) in x², up to the power `last` of sin x or cos x.
+#[inline(always)]
+fn series<F: Real>(cpu: F::Cpu, square: F, last: u32) -> F {
+    let mut sum = F::splat(cpu, 1.0);
+    let mut n = last;
+    while n > 1 {
+        sum = (sum * square).scale_add(-1.0 / f64::from(n * (n - 1)), F::splat(cpu, 1.0));
+        n -= 2;
+    }
+    sum
 }
 
 /// e^x for x ≤ 0, by its series at x/32; e^-20 for all smaller x. Relative error below 1e-10.
@@ -374,8 +385,8 @@ fn cos_sin<F: Real>(cpu: F::Cpu, turns: F) -> (F, F) {
 fn decay<F: Real>(cpu: F::Cpu, x: F) -> F {
     let x = x.max(F::splat(cpu, -DECAYED)) * (1.0 / 32.0);
     let mut sum = F::splat(cpu, 1.0);
-    for n in (1..=12).rev() {
-        sum = (sum * x).scale_add(1.0 / f64::from(n), F::splat(cpu, 1.0));
+    for per in [12.0, 11.0, 10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0].map(f64::recip) {
+        sum = (sum * x).scale_add(per, F::splat(cpu, 1.0));
     }
     for _ in 0..5 {
         sum = sum * sum;
@@ -520,7 +531,7 @@ mod tests {
         }
     }
 
-    /// What is left out at depth is less than FAINT of the motion of each component at the surface, 2e-4 of it at the bed, which doubles it.
+    /// What is left out at depth is less than 1e-4 of the motion of each component at the surface, 2e-4 of it at the bed, which doubles it.
     #[test]
     fn what_is_left_out_is_faint() {
         let waves = cross_sea(40);

@@ -5,8 +5,10 @@ use crate::rod::grading::{self, Rules, Sample, Station};
 use crate::rod::mesh::{Mesh, Properties};
 use crate::rod::physics;
 use crate::scene::types::{Line, Motion, Scene, Surface};
+use crate::sea::waves::Waves;
 use crate::solve::start::{Bounds, Frame};
 use nalgebra::Vector3;
+use std::f64::consts::TAU;
 
 /// Inertia and drag move the touchdown farther than the fairlead's motion would at rest: the motion counts this many times.
 const DYNAMIC: f64 = 1.6;
@@ -65,16 +67,20 @@ fn wanted(scene: &Scene, line: &Line, sections: &[Properties], given: &[(f64, Op
         ground.resistance.iter().map(|r| r.stiffness).fold(f64::INFINITY, f64::min)
     };
     let drop = places.iter().map(|fairlead| (fairlead.z - anchor.z).abs()).fold(0.0, f64::max);
+    let sea = Waves::of(&scene.environment).map(|waves| waves.mean());
     let rules = Rules {
         length: whole.length,
         refinement: finer * (1.0e-3 / scene.solver.tolerance).powf(0.39),
         stiffness: stiffness.max(f64::MIN_POSITIVE),
         mass: mean(&|p| p.mass + p.added_normal),
         ei: mean(&|p| p.ei),
-        period: match scene.motion {
-            Motion::Sinusoidal { period, .. } => period,
+        period: match (&scene.motion, sea) {
+            (Motion::Sinusoidal { period, .. }, None) => *period,
+            (Motion::Sinusoidal { period, .. }, Some((omega, _))) => period.min(TAU / omega),
+            (_, Some((omega, _))) => TAU / omega,
             _ => 0.0,
         },
+        wave_number: sea.map_or(0.0, |(_, k)| k),
         shortest: (whole.length / 400.0).max(0.02 * drop).min(whole.length / 20.0) / finer,
     };
     grading::stations(&rules, &positions)
@@ -99,7 +105,8 @@ fn samples(mesh: &Mesh, bounds: &Bounds, anchor: &Vector3<f64>, fairlead: &Vecto
         .map(|k| {
             let s = mesh.length * k as f64 / SAMPLES as f64;
             let (tension, carried) = frame.tension(s);
-            Sample { s, tension, slope: frame.at(s).1, carried }
+            let (place, slope) = frame.at(s);
+            Sample { s, tension, slope, height: place.z, carried }
         })
         .collect()
 }
