@@ -224,7 +224,7 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     (
         r#""damping": 4.0e-4"#,
         r#""tension_strain": [[0, 0], [0.02, 1e6], [0.01, 2e6]]"#,
-        &["line_types.chain.tension_strain[2]", "[0.01, 2e6]", "must rise"],
+        &["line_types.chain.tension_strain[2]", "[0.01, 2000000]", "must rise"],
     ),
     (
         r#""damping": 4.0e-4"#,
