@@ -81,7 +81,7 @@ pub struct Simulation {
 /// Local error of the positions allowed in a step, as a share of tolerance × (tension / stiffness of the fairlead), at a tolerance
 /// of 1e-3; in proportion to the tolerance to the power 3/2, since the global error goes with the local one to the power 2/3.
 /// Calibrated on the built-in case, where it gives about half the tolerance in the end tension.
-const ERROR_SHARE: f64 = 9.0e-3;
+const ERROR_SHARE: f64 = 1.1e-2;
 /// The finest step for the sake of the error, as a share of the longest.
 const FINEST_SHARE: f64 = 4.0e-3;
 /// Nor is a step made finer for that sake than this share of the time that an axial wave needs to cross an element.
@@ -243,8 +243,8 @@ impl Simulation {
         let end = |moment: &Moment| (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
         let mut before = self.works.then(|| end(&self.moment));
         let work = &mut self.work;
-        let criteria = self.demands.criteria;
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Solve };
+        let (criteria, allowed) = (self.demands.criteria, self.demands.error);
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Solve };
         self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment, _| {
             if let Some((force, place)) = &mut before {
                 let (force_now, place_now) = end(moment);
@@ -260,7 +260,14 @@ impl Simulation {
             return Ok(());
         }
         let (time, criteria) = (self.moment.state.clock.now, self.demands.criteria);
-        let mut bench = Bench { line: self.line.as_ref(), newton: &mut self.newton, path, criteria, stages: Stages::Solve };
+        let mut bench = Bench {
+            line: self.line.as_ref(),
+            newton: &mut self.newton,
+            path,
+            criteria,
+            allowed: self.demands.error,
+            stages: Stages::Solve,
+        };
         begin(&mut bench, &mut self.moment).map_err(|stall| Failure { time, step: 0.0, stall: Some(stall) })
     }
 
@@ -386,10 +393,11 @@ impl Simulation {
 
     fn differentiate_from_here(&mut self, until: f64, path: &Path, directions: &[Path]) -> Result<Vec<Outputs>, Failure> {
         let (time, line, criteria) = (self.moment.state.clock.now, self.line.as_ref(), self.demands.criteria);
+        let allowed = self.demands.error;
         let failed = |stall| Failure { time, step: 0.0, stall: Some(stall) };
         let mut stages = Vec::new();
         let mut legs = Vec::new();
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Record(&mut stages) };
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Record(&mut stages) };
         let fresh = std::mem::take(&mut self.fresh);
         if fresh {
             begin(&mut bench, &mut self.moment).map_err(failed)?;
@@ -404,7 +412,7 @@ impl Simulation {
         let mut derivatives = Vec::new();
         for direction in directions {
             let stages = Stages::Linear(linear.iter());
-            let mut bench = Bench { line, newton: &mut self.newton, path: direction, criteria, stages };
+            let mut bench = Bench { line, newton: &mut self.newton, path: direction, criteria, allowed, stages };
             let mut change = controller::at_rest(line.mesh().nodes(), time, 0.0);
             if fresh {
                 begin(&mut bench, &mut change).map_err(failed)?;
