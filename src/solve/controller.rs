@@ -58,7 +58,7 @@ pub struct Failure {
 }
 
 /// After a rejected step this many are taken by the L-stable method: what rings there, dies away.
-const GUARDED_STEPS: u32 = 64;
+const GUARDED_STEPS: u32 = 128;
 /// Halvings of a step before giving up.
 const HALVINGS: i32 = 24;
 
