@@ -352,3 +352,33 @@ fn a_load_on_a_stiff_line_bends_it_as_a_tensioned_beam() {
     assert_close("sag", -rig.state.u.position(11).z, sag, 1e-3);
     assert_close("tension", rig.fairlead_force().x.abs(), tension, 1e-4);
 }
+
+/// The derivative of steps already taken, with a body, springs and a moving lock on the line, against runs along paths that differ by
+/// ± 1e-4 of the variation.
+#[test]
+fn derivatives_of_steps_are_the_differences_of_runs() {
+    let mut scene = hanging(500.0, 400.0, 150.0, Some(12), json!([{"s": 150.0, "mass": 9000.0, "drag_area": 2.0}]));
+    scene["lines"][0]["constraints"] = json!([
+        {"s": 150.0, "axes": [[1, 1, 0], [0, 1, 1]], "locked": [true, false, false], "stiffness": [0, 3e4, 0],
+         "motion": {"period": 4, "sine": [0.2, 0.1, 0], "ramp": 0}},
+        {"s": 500.0, "stiffness": [1e5, 1e5, 1e5], "damping": [1e3, 0, 0]},
+    ]);
+    scene["solver"] = json!({"fixed_step": 0.05});
+    let (mut line, _) = simulation(&scene);
+    let path = |share: f64| {
+        let (along, varied) = (Vector3::new(0.8, 0.1, -0.3), Vector3::new(-0.2, 0.7, 0.4));
+        Path::Polynomial { start: 0.0, coefficients: vec![Vector3::zeros(), Vector3::zeros(), along + varied * share] }
+    };
+    let variation =
+        Path::Polynomial { start: 0.0, coefficients: vec![Vector3::zeros(), Vector3::zeros(), Vector3::new(-0.2, 0.7, 0.4)] };
+    let from = line.snapshot();
+    let found = line.differentiate(&from, 0.6, &path(0.0), &[variation]).unwrap_or_else(|error| panic!("{error}"))[0];
+    let mut run = |share: f64| {
+        assert!(line.restore(&from));
+        line.advance(0.6, &path(share)).unwrap_or_else(|error| panic!("{error}"));
+        line.outputs()
+    };
+    let (after, before) = (run(1e-4), run(-1e-4));
+    assert_close("tension", found.tension, (after.tension - before.tension) / 2e-4, 1e-4);
+    assert_close("at the springs", found.anchor_force.x, (after.anchor_force.x - before.anchor_force.x) / 2e-4, 1e-3);
+}
