@@ -4,10 +4,16 @@
 
 mod support;
 
+use moorline::rod::body::Body;
 use moorline::rod::hold::Hold;
 use moorline::rod::mesh::{Mesh, Part, Properties};
+use moorline::rod::morison::Sea;
+use moorline::rod::state::State;
 use moorline::scene::read::parse;
 use moorline::scene::types::Scheme;
+use moorline::sea::clock::Clock;
+use moorline::sea::current::Current;
+use moorline::sea::waves::Waves;
 use moorline::solve::motion::Path;
 use moorline::solve::newton::motion;
 use moorline::solve::simulation::{NodeOutput, Simulation};
@@ -381,4 +387,35 @@ fn derivatives_of_steps_are_the_differences_of_runs() {
     let (after, before) = (run(1e-4), run(-1e-4));
     assert_close("tension", found.tension, (after.tension - before.tension) / 2e-4, 1e-4);
     assert_close("at the springs", found.anchor_force.x, (after.anchor_force.x - before.anchor_force.x) / 2e-4, 1e-3);
+}
+
+/// Source: Airy in deep water and Froude & Krylov: a body at rest at depth z feels (A + ρΩ) a ω² e^(kz) at the least and most; without
+/// drag. Its weight is steady. The stretching to the surface adds a share of the order k a = 1e-3.
+#[test]
+fn a_body_at_rest_in_waves_feels_their_acceleration() {
+    let (amplitude, period, z) = (0.01, 6.0, -10.0);
+    let scene = json!({
+        "environment": {"depth": 400.0, "gravity": 9.81, "water_density": 1000.0,
+                        "waves": {"kind": "regular", "amplitude": amplitude, "period": period, "ramp": 0.0}},
+        "line_types": {"a": {"ea": 1e7, "mass": 1.0, "diameter": 0.01}},
+        "lines": [{"fairlead": [0, 0, 0], "anchor": [0, 0, -100], "sections": [{"type": "a", "length": 100, "elements": 2}]}],
+    });
+    let loaded = parse(&scene.to_string(), "test.json", std::path::Path::new("."), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let waves = Waves::of(&loaded.scene.environment).expect("the scene has waves");
+    let sea = Sea { waves, current: Current::default() };
+    let (added_mass, volume) = (700.0, 2.0);
+    let body = Body { added_mass, buoyancy: volume * 9.81e3, diameter: Some(1.5), ..point_mass(0, 3000.0) };
+    let mut state = State::new(2);
+    state.u.set_position(0, &Vector3::new(0.0, 0.0, z));
+    let omega = TAU / period;
+    let exact = (added_mass + 1000.0 * volume) * amplitude * omega * omega * (omega * omega / 9.81 * z).exp();
+    let mut largest = Vector3::<f64>::zeros();
+    for step in 0..600 {
+        state.clock = Clock { now: 0.01 * step as f64, start: -100.0 };
+        let mut force = body.force(&sea, &motion(&state));
+        force.z -= body.net_weight();
+        largest = largest.sup(&force.abs());
+    }
+    assert_close("surge", largest.x, exact, 2e-3);
+    assert_close("heave", largest.z, exact, 2e-3);
 }

@@ -343,7 +343,8 @@ pub struct Attachment {
 }
 
 /// What holds or loads one point of the line. At an end (s = 0 or s = the line's length) it releases the pin: the end is then
-/// held by what the constraint says and by nothing else.
+/// held by what the constraint says and by nothing else, and the scene's `motion` does not move it. (Locked along all axes without
+/// `reference` and `motion` it is the pin again.)
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Constraint {
