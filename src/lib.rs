@@ -27,6 +27,7 @@ pub mod algebra {
     pub mod lanes;
     pub mod polynomial;
     pub mod shape;
+    pub mod sinusoid;
     pub mod tensor;
 }
 
@@ -41,11 +42,13 @@ pub mod scene {
 /// The discrete line: elements and the loads on them. No time steps, no files.
 pub mod rod {
     pub mod bending;
+    pub mod body;
     pub mod catenary;
     pub mod elasticity;
     pub mod element;
     pub mod element_tangent;
     pub mod grading;
+    pub mod hold;
     pub mod joint;
     pub mod line;
     pub mod mesh;

@@ -5,7 +5,7 @@ mod support;
 use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::rod::elasticity::{Elasticity, Pressures};
 use moorline::rod::element::{Motion, Weights};
-use moorline::rod::line::{Line, Supports};
+use moorline::rod::line::Supports;
 use moorline::rod::mesh::Mesh;
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::state::State;

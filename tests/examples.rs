@@ -6,7 +6,7 @@ use moorline::scene::read::{self, Loaded};
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::{Outputs, Simulation};
 use std::f64::consts::TAU;
-use support::{GRAVITY, Hanging, Piece, assert_close, bisect};
+use support::{GRAVITY, Hanging, Piece, assert_close, bisect, weight};
 
 fn load(name: &str) -> Loaded {
     let path = format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -58,6 +58,51 @@ fn slack_catenary_hangs_as_irvine_says() {
     assert_close("tension at the fairlead", outputs.tension, exact.tension(&piece, 180.0), 1e-4);
     assert_close("tension at the anchor", outputs.anchor_tension, exact.tension(&piece, 0.0), 1e-4);
     assert_close("horizontal force", outputs.force.x, exact.horizontal, 3e-4);
+}
+
+/// Source: elastic catenaries above and below a jump of the vertical force, the weight of the body less its buoyancy. In motion the
+/// clump keeps the line alive: the tension stays between a half and twice that at rest.
+#[test]
+fn clump_weight_hangs_in_two_catenaries() {
+    let scene = load("clump-weight.json");
+    let per_length = 135.35 * GRAVITY - 1025.0 * GRAVITY * TAU / 8.0 * 0.076 * 0.076;
+    let chain = Piece { length: 150.0, weight: per_length, ea: 5.0e8 };
+    let pieces = [chain, weight((10000.0 - 1025.0 * 2.0) * GRAVITY), chain];
+    let exact = Hanging::spanning(&pieces, 250.0, 60.0);
+    let rows = history(&scene);
+    assert_close("tension at the fairlead", rows[0].tension, exact.tension(&pieces, 300.0), 3e-4);
+    assert_close("tension at the anchor", rows[0].anchor_tension, exact.tension(&pieces, 0.0), 3e-4);
+    assert_close("the title", rows[0].tension, 370.0e3, 5e-4);
+    assert!(rows.iter().all(|row| row.tension > 0.5 * rows[0].tension && row.tension < 2.0 * rows[0].tension));
+}
+
+/// Source: the same with a lift.
+#[test]
+fn lazy_wave_hangs_and_floats_in_two_catenaries() {
+    let scene = load("lazy-wave.json");
+    let per_length = 40.0 * GRAVITY - 1025.0 * GRAVITY * TAU / 8.0 * 0.2 * 0.2;
+    let hose = |length: f64| Piece { length, weight: per_length, ea: 2.0e7 };
+    let pieces = [hose(90.0), weight((300.0 - 1025.0 * 2.0) * GRAVITY), hose(130.0)];
+    let exact = Hanging::spanning(&pieces, 120.0, 110.0);
+    let outputs = history(&scene)[0];
+    assert_close("horizontal", outputs.force.x, exact.horizontal, 3e-3);
+    assert_close("tension at the fairlead", outputs.tension, exact.tension(&pieces, 220.0), 1e-3);
+    assert_close("tension at the anchor", outputs.anchor_tension, exact.tension(&pieces, 0.0), 1e-3);
+    assert_close("the title", outputs.force.x, 2.67e3, 3e-3);
+}
+
+/// Source: Archimedes on the wet part of a sphere, and Hooke.
+#[test]
+fn moored_buoy_floats_where_its_rope_lets_it() {
+    let rows = history(&load("moored-buoy.json"));
+    let (outputs, last) = (rows[0], rows[rows.len() - 1]);
+    let radius = (0.75 * 14.137 / std::f64::consts::PI).cbrt();
+    let h = outputs.fairlead.z / radius;
+    let pull = 1025.0 * GRAVITY * 14.137 * (1.0 - h) * (1.0 - h) * (2.0 + h) / 4.0 - 4000.0 * GRAVITY;
+    assert_close("tension below the buoy", outputs.tension, pull, 1e-5);
+    let wet = 10.0 * GRAVITY - 1025.0 * GRAVITY * TAU / 8.0 * 0.1 * 0.1;
+    assert_close("stretch", outputs.fairlead.z + 1.0, (pull - 0.5 * wet * 79.0) * 79.0 / 2.0e7, 1e-3);
+    assert_close("it stays", last.tension, outputs.tension, 1e-4);
 }
 
 /// Source: a line without weight across a current, drag on its normal velocity only: T is constant, and with φ the angle from the

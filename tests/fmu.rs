@@ -3,11 +3,11 @@
 //! Each test runs one script of `tests/fmu/`. They need Python 3.9 or newer; a virtual environment with pinned packages is set up once
 //! under `target/`.
 
+use moorline::algebra::sinusoid::Sinusoid;
 use moorline::fmi::pack::{Libraries, pack};
 use moorline::scene::types::{Motion, Scene};
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::Simulation;
-use std::f64::consts::TAU;
 use std::path::{Path as FilePath, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -78,8 +78,7 @@ fn standalone() -> Result<String, String> {
         return Err("the built-in motion is sinusoidal".into());
     };
     let origin = scene.lines[0].fairlead.into();
-    let path =
-        Path::Sinusoidal { origin, omega: TAU / period, sine: sine.into(), cosine: cosine.into(), ramp: ramp.unwrap_or(0.0) };
+    let path = Path::Sinusoidal { origin, offset: Sinusoid::new(period, sine, cosine, ramp) };
     let mut simulation = Simulation::new(&scene, 0).map_err(|error| error.to_string())?;
     simulation.settle(origin, 0.0).map_err(|error| error.to_string())?;
     let mut text = String::from("time,tension\n");

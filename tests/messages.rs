@@ -78,9 +78,9 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     // Types.
     (r#""depth": 120.0"#, r#""depth": "120 m""#, &["line 6", "environment.depth", "\"120 m\"", "expected a number"]),
     (r#""depth": 120.0"#, r#""depth": null"#, &["environment.depth", "null", "expected a number"]),
-    (r#"[5.08, 2.1, 0.0]"#, r#"[5.08, 2.1]"#, &["line 25", "motion.sine", "list of 2", "three numbers [x, y, z]"]),
+    (r#"[5.08, 2.1, 0.0]"#, r#"[5.08, 2.1]"#, &["line 25", "motion.sine", "list of 2", "three values [x, y, z]"]),
     (r#"[5.08, 2.1, 0.0]"#, r#"[5.08, "up", 0.0]"#, &["motion.sine[1]", "\"up\"", "expected a number"]),
-    (r#"[1183.97, 0.0, -120.0]"#, r#"[1183.97, 0.0, -120.0, 0.0]"#, &["lines[0].anchor", "three numbers"]),
+    (r#"[1183.97, 0.0, -120.0]"#, r#"[1183.97, 0.0, -120.0, 0.0]"#, &["lines[0].anchor", "three values"]),
     (
         r#"{"stiffness": 5075.2591}"#,
         r#"[5075.2591]"#,
@@ -233,8 +233,39 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     ),
     (
         r#""name": "line","#,
-        r#""attachments": [{"s": 300, "mass": 100}],"#,
-        &["lines[0].attachments", "does not support clump weights"],
+        r#""attachments": [{"s": 1200.5}],"#,
+        &["lines[0].attachments[0].s", "1200.5", "between 0 (fairlead) and 1200 m (anchor)"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""attachments": [{"s": 5, "volume": -1}],"#,
+        &["lines[0].attachments[0].volume", "-1", "0 or greater"],
+    ),
+    (r#""name": "line","#, r#""constraints": [{"s": -1}],"#, &["lines[0].constraints[0].s", "-1", "between 0 (fairlead)"]),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "force": [0, 0, 1]}, {"s": 8.0}],"#,
+        &["lines[0].constraints[1].s", "8", "constraints[0] is there already"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "axes": [[1, 1, 0], [-2, -2, 0]]}],"#,
+        &["lines[0].constraints[0].axes", "[(1, 1, 0), (-2, -2, 0)]", "not parallel"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "stiffness": [0, -5, 0]}],"#,
+        &["lines[0].constraints[0].stiffness[1]", "-5", "0 or greater, N/m"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "motion": {"period": 0}}],"#,
+        &["lines[0].constraints[0].motion.period", "0", "greater than 0 s"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "locked": [true, false]}],"#,
+        &["lines[0].constraints[0].locked", "three"],
     ),
     (
         r#""name": "line","#,
@@ -422,6 +453,21 @@ fn a_motion_file_is_read_relative_to_the_scene_with_or_without_velocities() {
     let text = "\u{feff}Time,X,Y,Z,VX,VY,VZ\r\n0,0,0,0,1,2,3\r\n1,0,0,0,4,5,6\r\n";
     let table = motion_file::parse(text, "heave.csv", &environment).expect("velocities are allowed");
     assert_eq!(table.velocities, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+}
+
+/// A body on a pinned end, and a motion of a fairlead that a constraint holds.
+#[test]
+fn what_acts_on_nothing_is_warned_of() {
+    let warnings = |line: &str| {
+        let text = edited(r#""name": "line","#, line);
+        read(&text, &[]).unwrap_or_else(|error| panic!("{error}")).warnings.join("; ")
+    };
+    let body = warnings(r#""attachments": [{"s": 1200, "mass": 5}],"#);
+    assert_says(&body, &["lines[0].attachments[0]", "pinned end"], "a body at the anchor");
+    let released = warnings(r#""constraints": [{"s": 0, "stiffness": [1e6, 1e6, 1e6]}],"#);
+    assert_says(&released, &["motion", "fairlead of lines[0]", "a motion of its own"], "a fairlead on springs");
+    let locked = warnings(r#""constraints": [{"s": 0, "locked": [true, true, true]}],"#);
+    assert_eq!(locked, "", "a fairlead locked without a motion of its own is a pinned one");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod support;
 
+use moorline::algebra::sinusoid::Sinusoid;
 use moorline::fmi::instance::Instance;
 use moorline::fmi::variables::Kind;
 use moorline::rod::mesh::Properties;
@@ -269,10 +270,7 @@ fn a_line_below_the_waves_does_not_feel_them() {
         let mut line = settled(&scene, 0.0);
         let path = Path::Sinusoidal {
             origin: scene.lines[0].fairlead.into(),
-            omega: 0.9,
-            sine: Vector3::new(1.0, 0.5, 0.3),
-            cosine: Vector3::zeros(),
-            ramp: 5.0,
+            offset: Sinusoid { omega: 0.9, sine: Vector3::new(1.0, 0.5, 0.3), cosine: Vector3::zeros(), ramp: 5.0 },
         };
         line.advance(8.0, &path).unwrap_or_else(|error| panic!("{error}"));
         line.outputs()

@@ -58,7 +58,7 @@ impl Libraries {
 
 /// Writes the FMU of a checked scene to `out`, and `NAME_OspModelDescription.xml` into the same folder; returns the path of the latter.
 ///
-/// `name` is the scene's: the FMU's modelName. Errors: a scene of several lines, no library, a file that cannot be written.
+/// `name` is the scene's: the FMU's modelName. Errors: a scene of several lines, a fairlead that a constraint holds, no library, a file that cannot be written.
 pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Result<PathBuf, Error> {
     if scene.lines.len() != 1 {
         return Err(Error::Value {
@@ -67,6 +67,17 @@ pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Res
             value: format!("a scene of {} lines", scene.lines.len()),
             allowed:
                 "an FMU holds one line; pack a scene with one line and load the FMU once per line, each with its own parameters"
+                    .to_owned(),
+        });
+    }
+    if let Some(index) = scene.lines.iter().position(|line| !line.is_pinned(0.0)) {
+        return Err(Error::Value {
+            file: name.to_owned(),
+            place: format!("lines[{index}].constraints"),
+            value: "a constraint at the fairlead".to_owned(),
+            allowed:
+                "an FMU's inputs move the fairlead, so it must be pinned: lock all three axes there, without a reference or a \
+                      motion of its own, or take the constraint away"
                     .to_owned(),
         });
     }
@@ -281,6 +292,15 @@ mod tests {
         scene.lines.push(scene.lines[0].clone());
         let error = pack(&scene, "harbour", &Libraries::default(), Path::new("harbour.fmu")).unwrap_err().to_string();
         assert!(error.contains("harbour") && error.contains("2 lines") && error.contains("once per line"), "{error}");
+    }
+
+    #[test]
+    fn a_fairlead_that_inputs_cannot_move_is_refused() {
+        let mut scene = built_in();
+        let springs = serde_json::json!({"s": 0.0, "stiffness": [1.0e6, 1.0e6, 1.0e6]});
+        scene.lines[0].constraints.push(serde_json::from_value(springs).unwrap());
+        let error = pack(&scene, "winch", &Libraries::default(), Path::new("winch.fmu")).unwrap_err().to_string();
+        assert!(error.contains("lines[0].constraints") && error.contains("pinned"), "{error}");
     }
 
     #[test]

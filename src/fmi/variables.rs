@@ -436,7 +436,8 @@ impl Parameter {
 
 /// Whether a scene's quantities go under its own names: several sections, attachments, waves or current.
 fn uses_scene_names(scene: &Scene) -> bool {
-    let plain = scene.lines.iter().all(|line| line.sections.len() == 1 && line.attachments.is_empty());
+    let plain =
+        scene.lines.iter().all(|line| line.sections.len() == 1 && line.attachments.is_empty() && line.constraints.is_empty());
     !plain || scene.environment.waves.is_some() || !scene.environment.current.is_empty()
 }
 

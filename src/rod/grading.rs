@@ -126,9 +126,11 @@ fn touchdown_zone(rules: &Rules, positions: &[Vec<Sample>]) -> Option<(f64, f64,
     zone
 }
 
-/// Turn of the tangent per length at a sample [1/m].
+/// Turn of the tangent per length at a sample [1/m]. Two samples at one place are the two sides of a kink, which is none.
 fn curvature(samples: &[Sample], i: usize) -> f64 {
-    let (a, b) = (&samples[i.saturating_sub(1)], &samples[(i + 1).min(samples.len() - 1)]);
+    let here = &samples[i];
+    let beside = |k: usize| Some(&samples[k.min(samples.len() - 1)]).filter(|other| other.s != here.s).unwrap_or(here);
+    let (a, b) = (beside(i.saturating_sub(1)), beside(i + 1));
     if b.s <= a.s { 0.0 } else { a.slope.normalize().metric_distance(&b.slope.normalize()) / (b.s - a.s) }
 }
 

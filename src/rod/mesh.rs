@@ -1,7 +1,8 @@
 //! The elements of a line, from the anchor to the fairlead.
 //!
-//! Where the axial or bending stiffness jumps between two sections, the slope must be free to jump too: there the mesh has two
-//! nodes at one position with a slope each, and between them a *joint*, an element without length that carries no load.
+//! Where the axial or bending stiffness jumps between two sections, or something acts on a point of the line, the slope must be free
+//! to jump too: there the mesh has two nodes at one position with a slope each, and between them a *joint*, an element without
+//! length that carries no load.
 
 use crate::rod::elasticity::{Elasticity, Pressures};
 use crate::scene::types::{Environment, Line, LineType, Scene};
@@ -36,6 +37,19 @@ pub struct Mesh {
     pub length: f64,
     /// What the tension of each section depends on besides EA; empty: on nothing else.
     pub elasticities: Vec<Elasticity>,
+    /// Joints, by element, at which something acts on the line.
+    pub points: Vec<usize>,
+}
+
+/// A stretch of one material that is meshed by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Its material.
+    pub properties: Properties,
+    /// Element lengths from the anchor side [m].
+    pub lengths: Vec<f64>,
+    /// Something acts where it meets the part before.
+    pub after_point: bool,
 }
 
 /// What an element is made of, per unstretched length.
@@ -108,18 +122,30 @@ impl Properties {
 impl Mesh {
     /// The mesh with given element lengths for each section, sections and elements counted from the anchor.
     pub fn new(sections: Vec<Properties>, lengths: &[Vec<f64>]) -> Mesh {
-        let mut elements = Vec::new();
-        let mut start = 0.0;
-        for (section, lengths) in lengths.iter().enumerate() {
-            if section > 0 && sections[section - 1].joins_with_a_kink(&sections[section]) {
-                elements.push(Element { start, length: 0.0, section });
+        let part =
+            |(properties, lengths): (Properties, &Vec<f64>)| Part { properties, lengths: lengths.clone(), after_point: false };
+        Mesh::of_parts(sections.into_iter().zip(lengths).map(part).collect())
+    }
+
+    /// The mesh of parts, counted from the anchor.
+    pub fn of_parts(parts: Vec<Part>) -> Mesh {
+        let mut mesh =
+            Mesh { elements: Vec::new(), sections: Vec::new(), length: 0.0, elasticities: Vec::new(), points: Vec::new() };
+        for (section, Part { properties, lengths, after_point }) in parts.into_iter().enumerate() {
+            let kink = mesh.sections.last().is_some_and(|before| before.joins_with_a_kink(&properties));
+            if section > 0 && (after_point || kink) {
+                if after_point {
+                    mesh.points.push(mesh.elements.len());
+                }
+                mesh.elements.push(Element { start: mesh.length, length: 0.0, section });
             }
-            for &length in lengths {
-                elements.push(Element { start, length, section });
-                start += length;
+            for length in lengths {
+                mesh.elements.push(Element { start: mesh.length, length, section });
+                mesh.length += length;
             }
+            mesh.sections.push(properties);
         }
-        Mesh { elements, sections, length: start, elasticities: Vec::new() }
+        mesh
     }
 
     /// Properties of the sections of a line of a scene, from the anchor. Sections of unknown type have been refused by the check.
@@ -162,6 +188,14 @@ impl Mesh {
     /// Arc length of a node from the anchor [m].
     pub fn node_arc_length(&self, node: usize) -> f64 {
         self.elements.get(node).map_or(self.length, |element| element.start)
+    }
+
+    /// The nodes nearest to an arc length from the anchor: one, or the two beside a joint, as first and last.
+    pub fn nodes_at(&self, s: f64) -> (usize, usize) {
+        let away = |node: usize| (self.node_arc_length(node) - s).abs();
+        let nearest = (1..self.nodes()).fold(0, |best, node| if away(node) < away(best) { node } else { best });
+        let tied = self.elements.get(nearest).is_some_and(Element::is_joint);
+        (nearest, nearest + usize::from(tied))
     }
 
     /// Properties of an element.

@@ -63,7 +63,7 @@ pub fn check(scene: &Scene, file: &str) -> Result<Vec<String>, Error> {
         rule(scene, file)?;
     }
     supported(scene, file)?;
-    Ok(unused_line_types(scene).into_iter().chain(breaking_waves(scene)).collect())
+    Ok([unused_line_types(scene), breaking_waves(scene), without_effect(scene)].concat())
 }
 
 /// Features that the types know and the solver does not yet: each one a block to delete.
@@ -72,14 +72,6 @@ fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
         |place: String, feature: &str| Err(Error::Unsupported { file: file.into(), place, feature: feature.into() });
     if scene.environment.seabed.friction != 0.0 {
         return unsupported("environment.seabed.friction".into(), "friction of the seabed; set it to 0");
-    }
-    for (number, line) in scene.lines.iter().enumerate() {
-        if !line.attachments.is_empty() {
-            return unsupported(format!("lines[{number}].attachments"), "clump weights and buoys; remove them");
-        }
-        if !line.constraints.is_empty() {
-            return unsupported(format!("lines[{number}].constraints"), "constraints of points of a line; remove them");
-        }
     }
     if scene.solver.scheme == Scheme::Cable1994 {
         let others = "the scheme \"cable-1994\"; use \"adams-moulton\", \"esdirk3\" or \"generalized-alpha\"";
@@ -537,9 +529,10 @@ fn solver(scene: &Scene, file: &str) -> Result<(), Error> {
     solver.fixed_step.map_or(Ok(()), |step| positive(file, "solver.fixed_step", step, "s; leave it out for step control"))
 }
 
-/// A line may be shorter than the distance of its ends: it stretches, but neither to twice its length nor beyond a breaking load.
+/// A line may be shorter than the distance of its ends: it stretches, but neither to twice its length nor beyond a breaking load. An
+/// end that a constraint holds comes nearer by itself.
 fn reach(scene: &Scene, file: &str) -> Result<(), Error> {
-    for (index, line) in scene.lines.iter().enumerate() {
+    for (index, line) in scene.lines.iter().enumerate().filter(|(_, line)| line.is_pinned(0.0) && line.is_pinned(line.length())) {
         let (length, distance) = (line.length(), distance(line.fairlead, line.anchor));
         let stretch = distance / length - 1.0;
         let limit = weakest(scene, line)
@@ -609,6 +602,26 @@ fn breaking_waves(scene: &Scene) -> Vec<String> {
         Some(Waves::Jonswap { hs, tp, .. }) => breaks("environment.waves", 0.5 * hs, *tp).into_iter().collect(),
         None => Vec::new(),
     }
+}
+
+/// Warnings: bodies and forces that load a support instead of the line, and a motion that nothing follows.
+fn without_effect(scene: &Scene) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (index, line) in scene.lines.iter().enumerate() {
+        for (number, body) in line.attachments.iter().enumerate() {
+            if line.end_at(body.s).is_some() && line.is_pinned(body.s) {
+                let place = format!("lines[{index}].attachments[{number}]");
+                warnings.push(format!("{place} sits on a pinned end: it loads what holds the line, and nothing else changes"));
+            }
+        }
+        if scene.motion != Motion::Fixed && !line.is_pinned(0.0) {
+            let line = format!("lines[{index}]");
+            warnings.push(format!(
+                "motion does not move the fairlead of {line}, which a constraint holds; give that constraint a motion of its own"
+            ));
+        }
+    }
+    warnings
 }
 
 /// Warnings about a motion file named `path`: it begins elsewhere than the fairlead, or does not cover the run.

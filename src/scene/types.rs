@@ -310,7 +310,8 @@ pub struct Section {
     /// Unstretched length [m], > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub length: f64,
-    /// Number of equal elements, ≥ 1. Default: chosen by the program to meet the tolerance.
+    /// Number of equal elements, ≥ 1. Default: chosen by the program to meet the tolerance. A section that an attachment or constraint
+    /// divides shares them out among its parts, at least one each.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 20000))]
     pub elements: Option<usize>,
@@ -342,7 +343,8 @@ pub struct Attachment {
 }
 
 /// What holds or loads one point of the line. At an end (s = 0 or s = the line's length) it releases the pin: the end is then
-/// held by what the constraint says and by nothing else.
+/// held by what the constraint says and by nothing else, and the scene's `motion` does not move it. (Locked along all axes without
+/// `reference` and `motion` it is the pin again.)
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Constraint {
@@ -645,7 +647,35 @@ impl LineType {
     }
 }
 
+impl Constraint {
+    /// Whether it holds an end as a pin does: all locked, where the end is, without a motion of its own.
+    pub fn is_pin(&self) -> bool {
+        self.locked == [true; 3] && self.motion.is_none() && self.reference.is_none()
+    }
+}
+
+/// Points of a line nearer to each other than this share of its length are one.
+pub const SAME_PLACE: f64 = 1.0e-9;
+
 impl Line {
+    /// Where the scene puts the end at arc length `s` from the fairlead; none if that is no end.
+    pub fn end_at(&self, s: f64) -> Option<Triple> {
+        let (length, near) = (self.length(), SAME_PLACE * self.length());
+        if s <= near {
+            Some(self.fairlead)
+        } else if s >= length - near {
+            Some(self.anchor)
+        } else {
+            None
+        }
+    }
+
+    /// Whether nothing but a pin holds the end at arc length `s`, where there is one.
+    pub fn is_pinned(&self, s: f64) -> bool {
+        let near = SAME_PLACE * self.length();
+        !self.constraints.iter().any(|constraint| (constraint.s - s).abs() <= near && !constraint.is_pin())
+    }
+
     /// Unstretched length [m].
     pub fn length(&self) -> f64 {
         self.sections.iter().map(|section| section.length).sum()

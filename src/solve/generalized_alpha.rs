@@ -55,8 +55,7 @@ impl Scheme for GeneralizedAlpha {
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
         self.between.clock = from.clock_after((1.0 - ALPHA_F) * h);
-        let driving = bench.path.at(self.between.clock.now).acceleration;
-        self.between.a.set_position(bench.line.last(), &driving);
+        bench.prescribe_order(2, &mut self.between.a, self.between.clock);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };
         bench.solve(&weights, &mut self.between)?;
 

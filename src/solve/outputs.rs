@@ -128,13 +128,14 @@ pub fn end_along(line: &dyn Line, state: &State, change: &State) -> EndChange {
     }
 }
 
-/// Nodes of a state, from the fairlead; the second node of a joint is left out.
+/// Nodes of a state, from the fairlead. Of the two nodes of a joint one is left out, unless something acts there: then slope and
+/// tension jump, and both stand at one place.
 pub fn nodes(line: &dyn Line, state: &State) -> Vec<NodeOutput> {
     let mesh = line.mesh();
     let last = line.last();
     let mut forces = vec![Vector3::zeros(); last + 1];
     line.node_forces(&motion(state), &mut forces);
-    let kept = |node: &usize| *node == last || !mesh.elements[*node].is_joint();
+    let kept = |node: &usize| *node == last || !mesh.elements[*node].is_joint() || mesh.points.contains(node);
     let node_output = |node: usize| {
         let p = state.u.slope(node);
         let tangent = if p.norm() > 0.0 { -p.normalize() } else { Vector3::zeros() };

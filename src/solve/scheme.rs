@@ -61,13 +61,25 @@ pub enum Stages<'a> {
 }
 
 impl Bench<'_> {
-    /// Sets a state to a time, and its fairlead where the path has it then.
+    /// Sets a state to a time, its fairlead where the path has it then, and locked nodes where their locks have them.
     pub fn prescribe(&self, state: &mut State, clock: Clock) {
-        let (last, at) = (self.line.last(), self.path.at(clock.now));
         state.clock = clock;
-        state.u.set_position(last, &at.position);
-        state.v.set_position(last, &at.velocity);
-        state.a.set_position(last, &at.acceleration);
+        for (order, field) in [&mut state.u, &mut state.v, &mut state.a].into_iter().enumerate() {
+            self.prescribe_order(order, field, clock);
+        }
+    }
+
+    /// The same for positions (order 0), velocities (1) or accelerations (2) alone.
+    pub fn prescribe_order(&self, order: usize, field: &mut Field, clock: Clock) {
+        let (last, at) = (self.line.last(), self.path.at(clock.now));
+        let prescribed = [at.position, at.velocity, at.acceleration][order];
+        for &(_, component) in self.line.fixed().iter().filter(|(node, component)| *node == last && *component < 3) {
+            field.component_mut(component)[last] = prescribed[component];
+        }
+        // Changes of the motion of a lock are zero, and stay so.
+        if !matches!(self.stages, Stages::Linear(_)) {
+            self.line.place(order, field, clock.now);
+        }
     }
 
     /// Passes an error of u through the stage matrix, J⁻¹ M e: what stiff waves that the step does not resolve contribute is damped

@@ -1,6 +1,7 @@
 //! The facade: one mooring line through statics and time. The command, the report and the FMU see nothing else of the solver.
 
 use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
+use crate::rod::grading::Sample;
 use crate::rod::line::{Line, Supports};
 use crate::rod::mesh::{Element, Mesh};
 pub use crate::rod::physics::Decision;
@@ -64,6 +65,7 @@ pub struct Simulation {
     name: String,
     line: Box<dyn Line>,
     surroundings: Surroundings,
+    supports: Supports,
     decisions: Vec<Decision>,
     bounds: Bounds,
     anchor: Vector3<f64>,
@@ -105,19 +107,27 @@ impl Simulation {
             });
         };
         let mut finer = 1.0;
-        let mut simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, finer));
+        let mut shapes = if meshing::is_automatic(line) { meshing::catenaries(scene, line) } else { Vec::new() };
+        let mut simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
         if !meshing::is_automatic(line) {
             return Ok(simulation);
+        }
+        if !(line.attachments.is_empty() && line.constraints.is_empty()) {
+            let found = simulation.shapes(&meshing::fairlead_places(scene, line));
+            if !found.is_empty() {
+                shapes = found;
+                simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
+            }
         }
         let tension =
             |simulation: &mut Simulation| simulation.settle(line.fairlead.into(), 0.0).ok().map(|_| simulation.outputs().tension);
         let allowed = MESH_SHARE * scene.solver.tolerance;
         for _ in 0..3 {
-            let mut halved = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, 2.0 * finer));
+            let mut halved = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
             match (tension(&mut simulation), tension(&mut halved)) {
                 (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * fine => {
                     finer *= 1.5;
-                    simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, finer));
+                    simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
                 }
                 (None, Some(_)) => simulation = halved,
                 _ => break,
@@ -126,20 +136,33 @@ impl Simulation {
         Ok(simulation)
     }
 
+    /// Shapes of the line at rest with its fairlead in several places, as far as they are found.
+    fn shapes(&mut self, fairleads: &[Vector3<f64>]) -> Vec<Vec<Sample>> {
+        let mut found = Vec::new();
+        for fairlead in fairleads {
+            if self.settle(*fairlead, 0.0).is_ok() {
+                found.push(meshing::shape_of(self.line.as_ref(), &self.moment.state));
+            }
+        }
+        found
+    }
+
     /// Line number `index` of a checked scene on a given mesh.
-    fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Simulation {
-        let (decisions, nodes, length) = (physics::decisions(scene, &mesh), mesh.nodes(), mesh.length);
+    fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Result<Simulation, Error> {
+        let supports = physics::supports(scene, &scene.lines[index], &mesh);
+        let (decisions, nodes, length) = (physics::decisions(scene, &mesh, &supports), mesh.nodes(), mesh.length);
         let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
         let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
-        let (surroundings, supports) = (Surroundings::of(scene, &mesh), Supports::pinned(&mesh));
-        let line = physics::build(mesh, surroundings.clone(), supports);
+        let surroundings = Surroundings::of(scene, &mesh);
+        let line = physics::build(mesh, surroundings.clone(), supports.clone());
         let solver = &scene.solver;
         // A fixed step is asked for to compare: nothing but the step shall be seen in the result.
         let share = if solver.fixed_step.is_some() { 1.0e-4 } else { NEWTON_SHARE };
         let criteria = Criteria { tolerance: (share * solver.tolerance).clamp(1e-11, 1e-4), length, iterations: 12 };
-        Simulation {
+        let mut simulation = Simulation {
             name: scene.lines[index].name.clone(),
             surroundings,
+            supports,
             decisions,
             bounds: meshing::bounds(scene),
             anchor: scene.lines[index].anchor.into(),
@@ -159,7 +182,28 @@ impl Simulation {
             works: false,
             fresh: true,
             last: LastStep::default(),
+        };
+        simulation.find_references(scene.lines[index].fairlead.into())?;
+        Ok(simulation)
+    }
+
+    /// Where the scene leaves the reference of a constraint open, it is where the node is in equilibrium without its springs and
+    /// locks.
+    fn find_references(&mut self, fairlead: Vector3<f64>) -> Result<(), Error> {
+        if self.supports.holds.iter().all(|hold| hold.reference.is_some()) {
+            return Ok(());
         }
+        self.settle(fairlead, 0.0)?;
+        for hold in &mut self.supports.holds {
+            hold.reference.get_or_insert(self.moment.state.u.position(hold.node));
+        }
+        self.line = physics::build(self.line.mesh().clone(), self.surroundings.clone(), self.supports.clone());
+        Ok(())
+    }
+
+    /// Where an end is held, or else where the scene has it: the place from which statics starts.
+    fn start_of(&self, node: usize, pinned: Vector3<f64>) -> Vector3<f64> {
+        self.supports.holds.iter().find(|hold| hold.node == node).and_then(|hold| hold.reference).unwrap_or(pinned)
     }
 
     /// From now on the work done on the vessel is summed up over the steps; unasked it stays zero, since it costs an end force in
@@ -173,8 +217,10 @@ impl Simulation {
     pub fn settle(&mut self, fairlead: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
         let nodes = self.line.mesh().nodes();
         self.moment = controller::at_rest(nodes, time, self.demands.max_step);
-        start::guess(self.line.mesh(), &self.bounds, &self.anchor, &fairlead, &mut self.moment.state.u);
-        let (mesh, surroundings) = (self.line.mesh(), &self.surroundings);
+        let (anchor, fairlead) = (self.start_of(0, self.anchor), self.start_of(self.line.last(), fairlead));
+        start::guess(self.line.mesh(), &self.bounds, &anchor, &fairlead, &mut self.moment.state.u);
+        self.line.place(0, &mut self.moment.state.u, time);
+        let (mesh, surroundings, supports) = (self.line.mesh(), &self.surroundings, &self.supports);
         let soften = |limit: f64| {
             let mut soft = mesh.clone();
             for (number, section) in soft.sections.iter_mut().enumerate().filter(|(_, section)| section.ea > limit) {
@@ -183,8 +229,7 @@ impl Simulation {
                 }
                 section.ea = limit;
             }
-            let supports = Supports::pinned(&soft);
-            physics::build(soft, surroundings.clone(), supports)
+            physics::build(soft, surroundings.clone(), supports.clone())
         };
         let balance = statics::settle(self.line.as_ref(), &soften, &mut self.newton, &mut self.moment.state);
         self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * self.tension_length();
@@ -279,6 +324,8 @@ impl Simulation {
         let reach = (to.position - self.anchor).norm();
         let cause = if !(is_finite(&from) && is_finite(&to) && until.is_finite()) {
             Cause::BadMotion
+        } else if !self.line.is_pinned(self.line.last()) {
+            return Ok(());
         } else if jump > 1e-6 * length {
             Cause::Jump { distance: jump }
         } else if reach > 2.0 * length {

@@ -207,7 +207,7 @@ impl Walk {
         self.evaluate(line, state);
         let end_tension = line.end_force(&motion(state)).norm();
         let (residual, node) = largest_force(line, &self.residual);
-        let allowed = attempt.allowed * line.mesh().total_weight().max(end_tension).max(f64::MIN_POSITIVE);
+        let allowed = attempt.allowed * (line.mesh().total_weight() + line.burden()).max(end_tension).max(f64::MIN_POSITIVE);
         Balance { iterations: 0, residual, allowed, node }
     }
 }

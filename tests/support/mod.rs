@@ -4,7 +4,9 @@
 
 use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::algebra::shape::Shape;
+use moorline::rod::body::Body;
 use moorline::rod::element::Weights;
+use moorline::rod::hold::{self, Hold};
 use moorline::rod::line::{Line, Supports};
 use moorline::rod::mesh::{Mesh, Properties};
 use moorline::rod::physics::{self, Surroundings};
@@ -134,6 +136,30 @@ impl Holding {
         self.0.loads.push((node, force));
         self
     }
+
+    /// A body on its node.
+    pub fn body(mut self, body: Body) -> Holding {
+        self.0.bodies.push(body);
+        self
+    }
+
+    /// Springs, dampers and locks at a node.
+    pub fn by(mut self, hold: Hold) -> Holding {
+        self.0.holds.push(hold);
+        self
+    }
+}
+
+/// A point mass in air.
+pub fn point_mass(node: usize, mass: f64) -> Body {
+    Body { node, mass, added_mass: 0.0, weight: mass * GRAVITY, buoyancy: 0.0, drag: 0.0, diameter: None, bed: None }
+}
+
+/// A hold at an end that does nothing yet, with given axes, about a point.
+pub fn hold_at(node: usize, directions: [[f64; 3]; 2], reference: Vector3<f64>) -> Hold {
+    let (axes, zero) = (hold::axes(&directions), Vector3::zeros());
+    let reference = Some(reference);
+    Hold { first: node, node, axes, reference, motion: None, stiffness: zero, damping: zero, locked: [false; 3], force: zero }
 }
 
 /// A line on the test bench.
@@ -312,6 +338,11 @@ pub struct Piece {
     pub length: f64,
     pub weight: f64,
     pub ea: f64,
+}
+
+/// A weight (negative: a lift) on a line, as a very short and heavy piece of it.
+pub fn weight(force: f64) -> Piece {
+    Piece { length: 1.0e-9, weight: 1.0e9 * force, ea: 1.0e15 }
 }
 
 /// Elastic catenary of several sections (Irvine 1981, section by section): `horizontal` H and `vertical` V at the anchor.
