@@ -67,6 +67,8 @@ pub struct Controller {
     scheme: Box<dyn Scheme>,
     guard: Esdirk,
     next: State,
+    /// The step tried last [s].
+    tried: f64,
     /// Work done so far.
     pub tally: Tally,
 }
@@ -78,6 +80,7 @@ impl Controller {
             scheme: scheme::of(name, nodes),
             guard: Esdirk::new(&TR_BDF2, nodes),
             next: State::new(nodes),
+            tried: 0.0,
             tally: Tally::default(),
         }
     }
@@ -94,11 +97,18 @@ impl Controller {
         let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.state.clock.now) * 0.5f64.powi(HALVINGS);
         let controlled = demands.fixed_step.is_none();
         let mut halved = false;
+        let mut first = true;
         while until - moment.state.clock.now > 1e-12 * until.abs().max(1.0) {
             let remaining = until - moment.state.clock.now;
             let wanted = demands.fixed_step.filter(|_| !halved).unwrap_or(moment.step.min(demands.max_step));
             let count = (remaining / wanted - 1e-6).ceil().max(1.0);
             let h = remaining / count;
+            // The way to the next output time rarely divides into the steps of the last one. A factor for nearly the same step would be kept,
+            // but converges more slowly than it did; judged by what it did, the iteration would end too soon.
+            if first && (h - self.tried).abs() > 1e-6 * h {
+                bench.newton.forget();
+            }
+            (self.tried, first) = (h, false);
             let guarded = moment.guard > 0;
             let recorded = if let Stages::Record(kept) = &bench.stages { kept.len() } else { 0 };
             let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };
