@@ -103,6 +103,9 @@ fn prepared() -> &'static Result<(PathBuf, PathBuf), String> {
         pack(&scene()?, "moorline", &Libraries::beside_program(), &fmu).map_err(|error| error.to_string())?;
         let other = folder.join("two-sections.fmu");
         pack(&two_sections()?, "two-sections", &Libraries::beside_program(), &other).map_err(|error| error.to_string())?;
+        let lines = serde_json::from_str(include_str!("../examples/two-lines.json")).map_err(|error| error.to_string())?;
+        pack(&lines, "two-lines", &Libraries::beside_program(), &folder.join("two-lines.fmu"))
+            .map_err(|error| error.to_string())?;
         Ok((python()?, fmu))
     })
 }
@@ -151,6 +154,16 @@ fn derivatives_agree_with_differences_taken_by_rollback() {
 #[test]
 fn a_scene_of_two_sections_has_its_own_names() {
     script("sections.py");
+}
+
+#[test]
+fn two_lines_in_one_fmu_are_what_each_is_alone() {
+    script("lines.py");
+}
+
+#[test]
+fn the_ssp_example_is_valid_and_runs() {
+    script("ssp.py");
 }
 
 #[test]

@@ -26,6 +26,8 @@ const VELOCITY_NODES: usize = 5;
 const POSITION_NODES: usize = 6;
 /// Past values by which an order is judged: how well those before foretold them.
 const FORETOLD: usize = 3;
+/// The share with which a miss of the present counts: a kink of the motion is forgotten sooner, jitter is judged by the past.
+const PRESENT_VOICE: f64 = 0.5;
 /// Past values that this takes.
 const SPACED_NODES: usize = POSITION_NODES + FORETOLD;
 /// Largest error of foretelling the present, as a part of all that changed over the nodes, that counts as smooth.
@@ -134,6 +136,17 @@ impl Segment {
         Path::Polynomial { start: self.start, coefficients }
     }
 
+    /// As a path for the solver, in the place of the last one.
+    pub fn write_to(&self, path: &mut Path) {
+        match path {
+            Path::Polynomial { start, coefficients } if coefficients.len() == TERMS => {
+                *start = self.start;
+                coefficients.iter_mut().zip(self.coefficients).for_each(|(to, term)| *to = term.into());
+            }
+            _ => *path = self.path(),
+        }
+    }
+
     /// Position [m] and velocity [m/s] at a time.
     pub fn at(&self, time: f64) -> ([f64; 3], [f64; 3]) {
         let tau = time - self.start;
@@ -152,6 +165,13 @@ impl InputPath {
     /// A fairlead at rest, with no past.
     pub fn at_rest(position: [f64; 3]) -> InputPath {
         InputPath { samples: Vec::with_capacity(CAPACITY), position, velocity: [0.0; 3], velocity_given: false }
+    }
+
+    /// Becomes another path's memory; in the long run it allocates nothing.
+    pub fn copy_from(&mut self, other: &InputPath) {
+        let InputPath { samples, position, velocity, velocity_given } = other;
+        self.samples.clone_from(samples);
+        (self.position, self.velocity, self.velocity_given) = (*position, *velocity, *velocity_given);
     }
 
     /// Decides how to go from `time` over `step` [s]: from which past values, by which order.
@@ -198,7 +218,7 @@ impl InputPath {
     /// How many of the nodes extrapolate best: of the polynomials through m values the one that came closest to foretelling the present and
     /// the last three past values from those before, as long as it did not miss the present by far; then m - 1 past values and the present
     /// one foretell the future. Not simply all of them: a polynomial through five values makes a jitter 31 times larger, and a vessel that
-    /// answers to the line's force sends it back. That the present has a voice halves the time in which a kink of the motion is forgotten.
+    /// answers to the line's force sends it back.
     ///
     /// What the polynomial through values 1 … m misses of value 0 is f[t₀, …, tₘ]·Π(t₀ - tⱼ), with the divided difference f[…].
     fn smooth(&self, nodes: &[usize], now: &Sample, position_only: bool) -> usize {
@@ -226,7 +246,8 @@ impl InputPath {
             if 1 + order >= count {
                 break;
             }
-            let worst = (0..=FORETOLD).take_while(|first| first + order < count).map(missed).fold(0.0, f64::max);
+            let past = (1..=FORETOLD).take_while(|first| first + order < count).map(missed);
+            let worst = past.fold(PRESENT_VOICE * missed(0), f64::max);
             if worst < least && (order == 1 || missed(0) <= SMOOTH * changed) {
                 (best, least) = (order - 1, worst);
             }

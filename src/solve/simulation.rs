@@ -8,7 +8,7 @@ pub use crate::rod::physics::Decision;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
 use crate::scene::types::Scene;
-use crate::solve::controller::{self, Controller, Demands, Failure};
+use crate::solve::controller::{self, Controller, Demands, Failure, Leg};
 use crate::solve::meshing;
 use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
@@ -78,6 +78,20 @@ pub struct Simulation {
     works: bool,
     fresh: bool,
     last: LastStep,
+    /// The state before the last `advance`.
+    before: Snapshot,
+    /// Room for the forces of the nodes.
+    forces: Vec<Vector3<f64>>,
+}
+
+/// Steps already taken and linearised: what `derivative` goes along, as often as wanted.
+pub struct Linearised {
+    time: f64,
+    history: f64,
+    fresh: bool,
+    legs: Vec<Leg>,
+    states: Vec<State>,
+    stages: Vec<LinearStage>,
 }
 
 /// Local error of the positions allowed in a step, as a share of tolerance × (tension / stiffness of the fairlead). Below a tolerance of
@@ -182,6 +196,8 @@ impl Simulation {
             works: false,
             fresh: true,
             last: LastStep::default(),
+            before: Snapshot::new(nodes),
+            forces: Vec::new(),
         };
         simulation.find_references(scene.lines[index].fairlead.into())?;
         Ok(simulation)
@@ -259,8 +275,9 @@ impl Simulation {
 
     /// Advances to a time with the fairlead on a path. On an error the state is the one before the call.
     pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
-        let before = (self.moment.clone(), self.work, self.fresh);
         self.check_path(until, path)?;
+        self.before.moment.copy_from(&self.moment);
+        (self.before.work, self.before.fresh, self.before.last) = (self.work, self.fresh, self.last);
         let effort = self.newton.effort;
         let steps = self.controller.tally.steps;
         self.controller.tally.error = 0.0;
@@ -275,12 +292,18 @@ impl Simulation {
                 Ok(())
             }
             Err(failure) => {
-                let stuck = self.stuck(&failure, path, before.0.state.clock.now);
-                (self.moment, self.work, self.fresh) = before;
-                self.newton.forget();
+                let stuck = self.stuck(&failure, path, self.before.moment.state.clock.now);
+                self.undo();
                 Err(Error::Step(Box::new(stuck)))
             }
         }
+    }
+
+    /// Takes the last `advance` back.
+    pub fn undo(&mut self) {
+        std::mem::swap(&mut self.moment, &mut self.before.moment);
+        (self.work, self.fresh, self.last) = (self.before.work, self.before.fresh, self.before.last);
+        self.newton.forget();
     }
 
     fn run(&mut self, until: f64, path: &Path) -> Result<(), Failure> {
@@ -385,21 +408,37 @@ impl Simulation {
     /// The complete state. The factor of the tangent is not part of it: it is dropped here and in `restore`, so that what follows
     /// is the same to the bit after both.
     pub fn snapshot(&mut self) -> Snapshot {
+        let mut snapshot = Snapshot::new(self.line.mesh().nodes());
+        self.save(&mut snapshot);
+        snapshot
+    }
+
+    /// The complete state, as `snapshot`, into one that is there already.
+    pub fn save(&mut self, snapshot: &mut Snapshot) {
         self.newton.forget();
-        let (moment, error) = (self.moment.clone(), self.demands.error);
-        Snapshot { moment, work: self.work, fresh: self.fresh, error, last: self.last }
+        if !self.fits(snapshot) {
+            *snapshot = Snapshot::new(self.line.mesh().nodes());
+        }
+        snapshot.moment.copy_from(&self.moment);
+        snapshot.error = self.demands.error;
+        (snapshot.work, snapshot.fresh, snapshot.last) = (self.work, self.fresh, self.last);
     }
 
     /// Puts back a state of this line; false, and nothing changed, if it belongs to a line with another number of nodes.
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
-        if snapshot.nodes() != self.line.mesh().nodes() {
+        if !self.fits(snapshot) {
             return false;
         }
         self.newton.forget();
-        self.moment.clone_from(&snapshot.moment);
+        self.moment.copy_from(&snapshot.moment);
         self.demands.error = snapshot.error;
         (self.work, self.fresh, self.last) = (snapshot.work, snapshot.fresh, snapshot.last);
         true
+    }
+
+    /// Whether a state is one of this line: it has as many nodes.
+    pub fn fits(&self, snapshot: &Snapshot) -> bool {
+        snapshot.nodes() == self.line.mesh().nodes()
     }
 
     /// Rates of the outputs in time, from the motion of the line now and the change of its acceleration over the last step.
@@ -417,34 +456,24 @@ impl Simulation {
         rates
     }
 
-    /// Derivatives of all outputs at a time, one for each variation of the path on the way there from a state: the steps are taken
-    /// once and then differentiated. The simulation stays as it is.
-    pub fn differentiate(
-        &mut self,
-        from: &Snapshot,
-        until: f64,
-        path: &Path,
-        directions: &[Path],
-    ) -> Result<Vec<Outputs>, Error> {
+    /// Takes the steps to a time and linearises them. The simulation stays as it is.
+    pub fn linearise(&mut self, until: f64, path: &Path) -> Result<Linearised, Error> {
         let now = self.snapshot();
         let tally = (self.controller.tally, self.newton.effort);
-        if !self.restore(from) {
-            return Ok(Vec::new());
-        }
-        let outcome = self.differentiate_from_here(until, path, directions);
-        let stuck = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, from.moment.state.clock.now))));
+        let outcome = self.linearise_from_here(until, path);
+        let outcome = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, now.moment.state.clock.now))));
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
-        stuck
+        outcome
     }
 
-    fn differentiate_from_here(&mut self, until: f64, path: &Path, directions: &[Path]) -> Result<Vec<Outputs>, Failure> {
+    fn linearise_from_here(&mut self, until: f64, path: &Path) -> Result<Linearised, Failure> {
         let (time, line, criteria) = (self.moment.state.clock.now, self.line.as_ref(), self.demands.criteria);
         let allowed = self.demands.error;
         let failed = |stall| Failure { time, step: 0.0, stall: Some(stall) };
-        let mut stages = Vec::new();
+        let mut solved = Vec::new();
         let mut legs = Vec::new();
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Record(&mut stages) };
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Record(&mut solved) };
         let fresh = std::mem::take(&mut self.fresh);
         if fresh {
             begin(&mut bench, &mut self.moment).map_err(failed)?;
@@ -455,34 +484,49 @@ impl Simulation {
             states.push(moment.state.clone());
             legs.push(*leg);
         })?;
-        let linear = stages.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
-        let mut derivatives = Vec::new();
-        for direction in directions {
-            let stages = Stages::Linear(linear.iter());
-            let mut bench = Bench { line, newton: &mut self.newton, path: direction, criteria, allowed, stages };
-            let mut change = controller::at_rest(line.mesh().nodes(), time, 0.0);
-            if fresh {
-                begin(&mut bench, &mut change).map_err(failed)?;
-            }
-            change.last_step = history;
-            let mut work = 0.0;
-            let mut before = outputs::end_along(line, &states[0], &change.state);
-            self.controller
-                .repeat(&mut bench, &legs, &mut change, |change, number| {
-                    let now = outputs::end_along(line, &states[number + 1], &change.state);
-                    work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
-                    work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));
-                    before = now;
-                })
-                .map_err(failed)?;
-            derivatives.push(Outputs { work, ..outputs::along(line, &self.moment.state, &change.state, 0.0, 1.0e-4) });
+        let stages = solved.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        Ok(Linearised { time, history, fresh, legs, states, stages })
+    }
+
+    /// Change of all outputs at the end of linearised steps per variation of their path: the steps are differentiated, not repeated.
+    pub fn derivative(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Error> {
+        let outcome = self.change(steps, variation);
+        outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, variation, steps.time))))
+    }
+
+    fn change(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Failure> {
+        let Linearised { time, history, fresh, legs, states, stages } = steps;
+        let (line, criteria) = (self.line.as_ref(), self.demands.criteria);
+        let failed = |stall| Failure { time: *time, step: 0.0, stall: Some(stall) };
+        let stages = Stages::Linear(stages.iter());
+        let allowed = self.demands.error;
+        let mut bench = Bench { line, newton: &mut self.newton, path: variation, criteria, allowed, stages };
+        let mut change = controller::at_rest(line.mesh().nodes(), *time, 0.0);
+        if *fresh {
+            begin(&mut bench, &mut change).map_err(failed)?;
         }
-        Ok(derivatives)
+        change.last_step = *history;
+        let mut work = 0.0;
+        let mut before = outputs::end_along(line, &states[0], &change.state);
+        let along = |change: &Moment, number: usize| {
+            let now = outputs::end_along(line, &states[number + 1], &change.state);
+            work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
+            work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));
+            before = now;
+        };
+        self.controller.repeat(&mut bench, legs, &mut change, along).map_err(failed)?;
+        Ok(Outputs { work, ..outputs::along(line, &states[legs.len()], &change.state, 0.0, 1.0e-4) })
     }
 
     /// Outputs now.
     pub fn outputs(&self) -> Outputs {
-        outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.state.clock.now, self.work)
+        outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.state.clock.now, self.work, &mut Vec::new())
+    }
+
+    /// Outputs now, without allocating anything.
+    pub fn observe(&mut self) -> Outputs {
+        let time = self.moment.state.clock.now;
+        outputs::outputs(self.line.as_ref(), &self.moment.state, time, self.work, &mut self.forces)
     }
 
     /// Nodes now, from the fairlead.

@@ -2,6 +2,7 @@
 
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::sea::clock::Clock;
+use crate::solve::controller::at_rest;
 use crate::solve::scheme::Moment;
 use crate::solve::simulation::LastStep;
 
@@ -15,7 +16,22 @@ pub struct Snapshot {
     pub(super) last: LastStep,
 }
 
+impl Moment {
+    /// Becomes another moment of the same line; allocates nothing.
+    pub fn copy_from(&mut self, other: &Moment) {
+        let Moment { state, earlier, last_step, step, guard } = other;
+        self.state.copy_from(state);
+        self.earlier.copy_from(earlier);
+        (self.last_step, self.step, self.guard) = (*last_step, *step, *guard);
+    }
+}
+
 impl Snapshot {
+    /// Room for the state of a line of so many nodes.
+    pub fn new(nodes: usize) -> Snapshot {
+        Snapshot { moment: at_rest(nodes, 0.0, 0.0), work: 0.0, fresh: true, error: 0.0, last: LastStep::default() }
+    }
+
     /// Number of nodes of the line it belongs to.
     pub fn nodes(&self) -> usize {
         self.moment.state.u.nodes()
