@@ -125,6 +125,12 @@ impl Mesh {
         line.sections.iter().rev().filter_map(|section| of(&section.line_type)).collect()
     }
 
+    /// The same elements with one slope at every node.
+    pub fn without_joints(mut self) -> Mesh {
+        self.elements.retain(|element| !element.is_joint());
+        self
+    }
+
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.elements.len() + 1
