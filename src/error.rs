@@ -335,6 +335,26 @@ pub enum Cause {
         /// Unstretched length [m].
         length: f64,
     },
+    /// A step of `cable-1994` that its damping makes unstable.
+    #[error(
+        "a step of {step:.1e} s is too short for the scheme cable-1994: its damping amplifies errors in steps of {shortest:.1e} s and less, \
+         twice the largest `damping`; use longer steps (solver.fixed_step, run.output_step), less damping or another scheme"
+    )]
+    StepTooShort {
+        /// The step [s].
+        step: f64,
+        /// Twice the largest time constant [s].
+        shortest: f64,
+    },
+    /// `cable-1994` has left every bound.
+    #[error(
+        "the scheme cable-1994, which solves each step once and controls no error, has diverged with steps of {step} s; shorten \
+         solver.fixed_step, or use adams-moulton"
+    )]
+    Diverged {
+        /// The step [s].
+        step: f64,
+    },
     /// The motion holds a number that is not finite.
     #[error("the motion of the fairlead is not finite")]
     BadMotion,

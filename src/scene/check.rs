@@ -4,6 +4,8 @@
 //! Numbers beyond 1e15 in size, and positive ones below 1e-12, are taken for slips: products of them would leave the range of f64.
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
+mod cable_1994;
+
 use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;
 use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Scheme, Triple, Waves};
@@ -55,6 +57,7 @@ const RULES: [Rule; 29] = [
     run,
     solver,
     reach,
+    cable_1994::cable_1994,
 ];
 
 /// Checks a scene; `file` names it in the message. Returns warnings, or the first thing that is wrong.
@@ -80,10 +83,6 @@ fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
         if !line.constraints.is_empty() {
             return unsupported(format!("lines[{number}].constraints"), "constraints of points of a line; remove them");
         }
-    }
-    if scene.solver.scheme == Scheme::Cable1994 {
-        let others = "the scheme \"cable-1994\"; use \"adams-moulton\", \"esdirk3\" or \"generalized-alpha\"";
-        return unsupported("solver.scheme".into(), others);
     }
     Ok(())
 }

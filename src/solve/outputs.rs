@@ -50,9 +50,19 @@ pub struct NodeOutput {
 /// Outputs of a state. End forces and node tensions are consistent nodal reactions, not stiffness times strain: 10 to 40 times
 /// more accurate on the same mesh.
 pub fn outputs(line: &dyn Line, state: &State, time: f64, work: f64) -> Outputs {
-    let last = line.last();
-    let mut forces = vec![Vector3::zeros(); last + 1];
+    from_forces(line, state, &node_forces(line, state), time, work)
+}
+
+/// Force that the fairlead side exerts on the anchor side at every node [N].
+pub fn node_forces(line: &dyn Line, state: &State) -> Vec<Vector3<f64>> {
+    let mut forces = vec![Vector3::zeros(); line.last() + 1];
     line.node_forces(&motion(state), &mut forces);
+    forces
+}
+
+/// Outputs of a state with given forces at the nodes [N], as `Line::node_forces` gives them.
+pub fn from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>], time: f64, work: f64) -> Outputs {
+    let last = line.last();
     let (force, anchor_force) = (-forces[last], forces[0]);
     Outputs {
         time,
@@ -80,8 +90,11 @@ pub fn along(line: &dyn Line, state: &State, change: &State, seconds: f64, step:
         moved.clock.now += factor * seconds;
         outputs(line, &moved, 0.0, 0.0)
     };
-    let (after, before) = (moved(step), moved(-step));
-    let per = 0.5 / step;
+    difference(&moved(step), &moved(-step), 0.5 / step)
+}
+
+/// The difference of two outputs times a factor; time and work are zero.
+pub fn difference(after: &Outputs, before: &Outputs, per: f64) -> Outputs {
     let turn = after.azimuth - before.azimuth;
     Outputs {
         time: 0.0,
@@ -130,10 +143,13 @@ pub fn end_along(line: &dyn Line, state: &State, change: &State) -> EndChange {
 
 /// Nodes of a state, from the fairlead; the second node of a joint is left out.
 pub fn nodes(line: &dyn Line, state: &State) -> Vec<NodeOutput> {
+    nodes_from_forces(line, state, &node_forces(line, state))
+}
+
+/// The same with given forces at the nodes [N].
+pub fn nodes_from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>]) -> Vec<NodeOutput> {
     let mesh = line.mesh();
     let last = line.last();
-    let mut forces = vec![Vector3::zeros(); last + 1];
-    line.node_forces(&motion(state), &mut forces);
     let kept = |node: &usize| *node == last || !mesh.elements[*node].is_joint();
     let node_output = |node: usize| {
         let p = state.u.slope(node);

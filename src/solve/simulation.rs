@@ -1,14 +1,19 @@
 //! The facade: one mooring line through statics and time. The command, the report and the FMU see nothing else of the solver.
 
+use crate::cable1994::line::Tensions;
+use crate::cable1994::setup;
 use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
 use crate::rod::line::{Line, Supports};
 use crate::rod::mesh::{Element, Mesh};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
-use crate::scene::types::Scene;
+use crate::scene::state::LineState;
+use crate::scene::types::{Scene, Scheme};
 use crate::solve::controller::{self, Controller, Demands, Failure};
+use crate::solve::line_state;
 use crate::solve::meshing;
+use crate::solve::mixed::{Advance, Mixed, Velocity};
 use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
 use crate::solve::outputs;
@@ -40,6 +45,8 @@ pub struct Counters {
     pub rejected_steps: usize,
     /// Accepted steps of the finest length whose estimated error was above the tolerance.
     pub unresolved_steps: usize,
+    /// Steps of `cable-1994` with a part of the line pushing.
+    pub pushing_steps: usize,
     /// Newton iterations.
     pub newton_iterations: usize,
     /// Factorisations of the tangent.
@@ -63,6 +70,8 @@ pub struct LastStep {
 pub struct Simulation {
     name: String,
     line: Box<dyn Line>,
+    /// The line by the report's own method, where the scene asks for it; `line` then gives mesh, first guess and bed.
+    mixed: Option<Mixed>,
     surroundings: Surroundings,
     decisions: Vec<Decision>,
     bounds: Bounds,
@@ -90,6 +99,8 @@ const CROSSING_SHARE: f64 = 0.1;
 const NEWTON_SHARE: f64 = 0.05;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
 const MESH_SHARE: f64 = 0.3;
+/// How far `cable-1994` may leave the path of its fairlead, as a share of the line's length: it prescribes the velocity and adds it up.
+const MIXED_JUMP: f64 = 1.0e-4;
 
 impl Simulation {
     /// Line number `index` of a checked scene: meshes it and picks its physics. Where the scene leaves the mesh to the program, it
@@ -128,14 +139,22 @@ impl Simulation {
 
     /// Line number `index` of a checked scene on a given mesh.
     fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Simulation {
-        let (decisions, nodes, length) = (physics::decisions(scene, &mesh), mesh.nodes(), mesh.length);
+        let solver = &scene.solver;
+        let is_mixed = solver.scheme == Scheme::Cable1994;
+        let mesh = if is_mixed { mesh.without_joints() } else { mesh };
+        let mixed = solver.uncontrolled_step().filter(|_| is_mixed).map(|step| {
+            let line = setup::line(scene, &scene.lines[index], &mesh, Supports::pinned(&mesh));
+            (Mixed::new(line, step), setup::decisions(scene, &mesh, step))
+        });
+        let (mixed, report) = mixed.unzip();
+        let decisions = report.unwrap_or_else(|| physics::decisions(scene, &mesh));
+        let (nodes, length) = (mesh.nodes(), mesh.length);
         let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
         let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
         let (surroundings, supports) = (Surroundings::of(scene, &mesh), Supports::pinned(&mesh));
         let line = physics::build(mesh, surroundings.clone(), supports);
-        let solver = &scene.solver;
         // A fixed step is asked for to compare: nothing but the step shall be seen in the result.
-        let share = if solver.fixed_step.is_some() { 1.0e-4 } else { NEWTON_SHARE };
+        let share = if solver.uncontrolled_step().is_some() { 1.0e-4 } else { NEWTON_SHARE };
         let criteria = Criteria { tolerance: (share * solver.tolerance).clamp(1e-11, 1e-4), length, iterations: 12 };
         Simulation {
             name: scene.lines[index].name.clone(),
@@ -150,11 +169,12 @@ impl Simulation {
                 error: 0.0,
                 finest_step: (FINEST_SHARE * solver.max_step).max(CROSSING_SHARE * crossing).min(solver.max_step),
                 max_step: solver.max_step,
-                fixed_step: solver.fixed_step,
+                fixed_step: solver.uncontrolled_step(),
                 criteria,
             },
             moment: controller::at_rest(nodes, 0.0, solver.max_step),
             line,
+            mixed,
             work: 0.0,
             works: false,
             fresh: true,
@@ -186,11 +206,11 @@ impl Simulation {
             let supports = Supports::pinned(&soft);
             physics::build(soft, surroundings.clone(), supports)
         };
-        let balance = statics::settle(self.line.as_ref(), &soften, &mut self.newton, &mut self.moment.state);
-        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).sqrt() * self.tolerance * self.tension_length();
-        self.newton.forget();
-        self.newton.effort = Effort::default();
-        (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
+        let mut balance = statics::settle(self.line.as_ref(), &soften, &mut self.newton, &mut self.moment.state);
+        if let Some(mixed) = &mut self.mixed {
+            balance = mixed.settle(self.line.as_ref(), &mut self.moment.state, balance);
+        }
+        self.begin_anew();
         if balance.converged() {
             return Ok(StaticsReport { iterations: balance.iterations, residual: balance.residual, converged: true });
         }
@@ -204,6 +224,14 @@ impl Simulation {
         })))
     }
 
+    /// What a new beginning resets, and the error of a step that is allowed from here.
+    fn begin_anew(&mut self) {
+        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).sqrt() * self.tolerance * self.tension_length();
+        self.newton.forget();
+        self.newton.effort = Effort::default();
+        (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
+    }
+
     /// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
     fn tension_length(&mut self) -> f64 {
         let length = self.line.mesh().length;
@@ -215,11 +243,16 @@ impl Simulation {
     /// Advances to a time with the fairlead on a path. On an error the state is the one before the call.
     pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
         let before = (self.moment.clone(), self.work, self.fresh);
+        let tensions = self.mixed.as_ref().map(|mixed| mixed.tensions().clone());
         self.check_path(until, path)?;
         let effort = self.newton.effort;
         let steps = self.controller.tally.steps;
         self.controller.tally.error = 0.0;
-        let outcome = self.begin(path).and_then(|()| self.run(until, path));
+        let outcome = if self.mixed.is_some() {
+            self.run_mixed(until, &|time| path.at(time).velocity)
+        } else {
+            self.begin(path).and_then(|()| self.run(until, path))
+        };
         match outcome {
             Ok(()) => {
                 self.last = LastStep {
@@ -232,6 +265,9 @@ impl Simulation {
             Err(failure) => {
                 let stuck = self.stuck(&failure, path, before.0.state.clock.now);
                 (self.moment, self.work, self.fresh) = before;
+                if let (Some(mixed), Some(tensions)) = (&mut self.mixed, &tensions) {
+                    mixed.restore(tensions);
+                }
                 self.newton.forget();
                 Err(Error::Step(Box::new(stuck)))
             }
@@ -252,6 +288,19 @@ impl Simulation {
                 (*force, *place) = (force_now, place_now);
             }
         })
+    }
+
+    /// The same by the report's own method.
+    fn run_mixed(&mut self, until: f64, velocity: Velocity) -> Result<(), Failure> {
+        let Some(mixed) = &mut self.mixed else { return Ok(()) };
+        let Advance { steps, pushing, work } = mixed.advance(&mut self.moment, until, velocity)?;
+        self.fresh = false;
+        self.work += work;
+        self.controller.tally.steps += steps;
+        self.controller.tally.pushing += pushing;
+        self.newton.effort.iterations += steps;
+        self.newton.effort.factorisations += steps;
+        Ok(())
     }
 
     /// Before the first step after statics: the fairlead takes up the velocity and acceleration of its path, the line those that fit.
@@ -279,7 +328,7 @@ impl Simulation {
         let reach = (to.position - self.anchor).norm();
         let cause = if !(is_finite(&from) && is_finite(&to) && until.is_finite()) {
             Cause::BadMotion
-        } else if jump > 1e-6 * length {
+        } else if jump > self.mixed.as_ref().map_or(1e-6, |_| MIXED_JUMP) * length {
             Cause::Jump { distance: jump }
         } else if reach > 2.0 * length {
             Cause::OutOfReach { distance: reach, length }
@@ -305,10 +354,12 @@ impl Simulation {
             time: failure.time,
             s: self.arc_length(node),
             zone: self.zone(node),
-            cause: match failure.stall {
-                None => Cause::TooInaccurate { step },
-                Some(Stall::NotFinite { .. }) => Cause::NotFinite { step },
-                Some(_) => Cause::NoSolution { step },
+            cause: match (failure.stall, &self.mixed) {
+                (None, Some(mixed)) => Cause::StepTooShort { step, shortest: mixed.shortest_step() },
+                (Some(_), Some(_)) => Cause::Diverged { step },
+                (None, None) => Cause::TooInaccurate { step },
+                (Some(Stall::NotFinite { .. }), None) => Cause::NotFinite { step },
+                (Some(_), None) => Cause::NoSolution { step },
             },
             fairlead_speed: path.at(failure.time).velocity.norm(),
             last_good_time,
@@ -340,13 +391,18 @@ impl Simulation {
     pub fn snapshot(&mut self) -> Snapshot {
         self.newton.forget();
         let (moment, error) = (self.moment.clone(), self.demands.error);
-        Snapshot { moment, work: self.work, fresh: self.fresh, error, last: self.last }
+        let tensions = self.mixed.as_ref().map_or_else(Tensions::default, |mixed| mixed.tensions().clone());
+        Snapshot { moment, tensions, work: self.work, fresh: self.fresh, error, last: self.last }
     }
 
     /// Puts back a state of this line; false, and nothing changed, if it belongs to a line with another number of nodes.
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
-        if snapshot.nodes() != self.line.mesh().nodes() {
+        let fits = self.mixed.as_ref().map_or(snapshot.tensions.now.is_empty(), |mixed| mixed.fits(&snapshot.tensions));
+        if snapshot.nodes() != self.line.mesh().nodes() || !fits {
             return false;
+        }
+        if let Some(mixed) = &mut self.mixed {
+            mixed.restore(&snapshot.tensions);
         }
         self.newton.forget();
         self.moment.clone_from(&snapshot.moment);
@@ -357,6 +413,9 @@ impl Simulation {
 
     /// Rates of the outputs in time, from the motion of the line now and the change of its acceleration over the last step.
     pub fn output_rates(&self) -> Outputs {
+        if let Some(mixed) = &self.mixed {
+            return mixed.output_rates(self.line.as_ref(), &self.moment);
+        }
         let (state, moment) = (&self.moment.state, &self.moment);
         let mut jerk = Field::new(state.a.nodes());
         if moment.last_step > 0.0 {
@@ -384,11 +443,39 @@ impl Simulation {
         if !self.restore(from) {
             return Ok(Vec::new());
         }
-        let outcome = self.differentiate_from_here(until, path, directions);
+        let outcome = if self.mixed.is_some() {
+            self.differentiate_mixed(from, until, path, directions)
+        } else {
+            self.differentiate_from_here(until, path, directions)
+        };
         let stuck = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, from.moment.state.clock.now))));
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
         stuck
+    }
+
+    /// Central differences of the report's steps: each is one linear solve, and takes less time than to differentiate it would.
+    fn differentiate_mixed(
+        &mut self,
+        from: &Snapshot,
+        until: f64,
+        path: &Path,
+        directions: &[Path],
+    ) -> Result<Vec<Outputs>, Failure> {
+        let mut moved = |direction: &Path, share: f64| {
+            self.restore(from);
+            self.run_mixed(until, &|time| path.at(time).velocity + direction.at(time).velocity * share)?;
+            Ok(self.outputs())
+        };
+        let share = 1.0e-4;
+        directions
+            .iter()
+            .map(|direction| {
+                let (after, before) = (moved(direction, share)?, moved(direction, -share)?);
+                let work = (after.work - before.work) * (0.5 / share);
+                Ok(Outputs { work, ..outputs::difference(&after, &before, 0.5 / share) })
+            })
+            .collect()
     }
 
     fn differentiate_from_here(&mut self, until: f64, path: &Path, directions: &[Path]) -> Result<Vec<Outputs>, Failure> {
@@ -435,12 +522,43 @@ impl Simulation {
 
     /// Outputs now.
     pub fn outputs(&self) -> Outputs {
+        if let Some(mixed) = &self.mixed {
+            return mixed.outputs(self.line.as_ref(), &self.moment, self.work);
+        }
         outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.state.clock.now, self.work)
     }
 
     /// Nodes now, from the fairlead.
     pub fn nodes(&self) -> Vec<NodeOutput> {
+        if let Some(mixed) = &self.mixed {
+            return mixed.nodes(self.line.as_ref(), &self.moment.state);
+        }
         outputs::nodes(self.line.as_ref(), &self.moment.state)
+    }
+
+    /// Nodes now as the files of 1994 have them, from the fairlead: with slopes, rates and λ.
+    pub fn line_state(&self) -> LineState {
+        let (line, state) = (self.line.as_ref(), &self.moment.state);
+        match &self.mixed {
+            Some(mixed) => line_state::of(line, state, &mixed.tensions().now),
+            None => {
+                let forces = outputs::node_forces(line, state);
+                line_state::of(line, state, &line_state::tensions(line, self.surroundings.stretch, state, &forces))
+            }
+        }
+    }
+
+    /// Begins from given nodes instead of from equilibrium; false, and nothing changed, if a node of the mesh is not among them. The
+    /// accelerations are those that fit; λ is taken over by `cable-1994` alone.
+    pub fn start_from(&mut self, given: &LineState) -> bool {
+        let mut moment = controller::at_rest(self.line.mesh().nodes(), given.time, self.demands.max_step);
+        let Some(tensions) = line_state::set(self.line.as_ref(), given, &mut moment.state) else { return false };
+        self.moment = moment;
+        if let Some(mixed) = &mut self.mixed {
+            mixed.restore(&Tensions { now: tensions.clone(), before: tensions });
+        }
+        self.begin_anew();
+        true
     }
 
     /// Number of elements.
@@ -476,6 +594,7 @@ impl Simulation {
             steps: tally.steps,
             rejected_steps: tally.rejected,
             unresolved_steps: tally.unresolved,
+            pushing_steps: tally.pushing,
             newton_iterations: effort.iterations,
             factorisations: effort.factorisations,
             element_iterations: effort.iterations * self.elements(),
