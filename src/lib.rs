@@ -33,6 +33,7 @@ pub mod algebra {
 
 /// What the user said: plain data, read and checked. No nodes, no steps.
 pub mod scene {
+    pub mod cable;
     pub mod check;
     pub mod motion_file;
     pub mod read;
@@ -83,6 +84,7 @@ pub mod cable1994 {
 pub mod solve {
     pub mod adams_moulton;
     pub mod controller;
+    pub mod departure;
     pub mod esdirk;
     pub mod generalized_alpha;
     pub mod line_state;
@@ -115,6 +117,7 @@ pub mod fmi {
 
 /// What a run leaves behind: tables and a page to look at.
 pub mod report {
+    pub mod cable_files;
     pub mod page;
     pub mod page_data;
     pub mod record;

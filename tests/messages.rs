@@ -350,7 +350,8 @@ fn texts_that_are_no_scene_say_what_they_are() {
         ("{} {}", &["trailing characters"]),
         ("{}", &["is missing"]),
         ("# a comment\n{}", &["line 1", "no comments"]),
-        ("  1 0 0 0\n 40 2\n", &["harbour.json, line 1", "does not support CABLE input files"]),
+        ("  1 0 0 0\n 40 2\n", &["harbour.json, line 2, column 6, NELTYP", "the file ends here"]),
+        ("lines:\n  - name: bow\n", &["harbour.json, line 2", "neither a scene, which is a JSON object", "nor a CABLE file"]),
         (&deep, &["title[0][0][0][0][0][0][0][0][0][0][0]…: ", "too deep"]),
     ];
     for (text, words) in cases {
