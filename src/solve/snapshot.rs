@@ -1,5 +1,6 @@
 //! The complete state of a line in time as plain data, and as bytes.
 
+use crate::cable1994::line::Tensions;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::sea::clock::Clock;
 use crate::solve::controller::at_rest;
@@ -10,6 +11,8 @@ use crate::solve::simulation::LastStep;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
     pub(super) moment: Moment,
+    /// Of `cable-1994`; empty for every other scheme.
+    pub(super) tensions: Tensions,
     pub(super) work: f64,
     pub(super) fresh: bool,
     pub(super) error: f64,
@@ -29,7 +32,8 @@ impl Moment {
 impl Snapshot {
     /// Room for the state of a line of so many nodes.
     pub fn new(nodes: usize) -> Snapshot {
-        Snapshot { moment: at_rest(nodes, 0.0, 0.0), work: 0.0, fresh: true, error: 0.0, last: LastStep::default() }
+        let (moment, tensions) = (at_rest(nodes, 0.0, 0.0), Tensions::default());
+        Snapshot { moment, tensions, work: 0.0, fresh: true, error: 0.0, last: LastStep::default() }
     }
 
     /// Number of nodes of the line it belongs to.
@@ -37,14 +41,16 @@ impl Snapshot {
         self.moment.state.u.nodes()
     }
 
-    /// Appends the state as little-endian 8-byte words: nodes, flags and counts, scalars, then u, v, a and the earlier a.
+    /// Appends the state as little-endian 8-byte words: nodes, flags and counts, scalars, then u, v, a and the earlier a, and
+    /// of `cable-1994` its tensions now and before.
     pub fn to_bytes(&self, out: &mut Vec<u8>) {
         let (m, last) = (&self.moment, &self.last);
         let words =
             [self.nodes() as u64, u64::from(self.fresh), u64::from(m.guard), last.substeps as u64, last.newton_iterations as u64];
         let scalars = [m.state.clock.now, m.state.clock.start, m.last_step, m.step, self.work, self.error, last.error_estimate];
         let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier];
-        let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).map(|x| x.to_bits());
+        let tensions = self.tensions.now.iter().chain(&self.tensions.before);
+        let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).chain(tensions).map(|x| x.to_bits());
         words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
     }
 
@@ -53,7 +59,12 @@ impl Snapshot {
         let mut words = bytes.chunks_exact(8).map(|chunk| chunk.try_into().map(u64::from_le_bytes).unwrap_or(0));
         let nodes = usize::try_from(words.next()?).ok()?;
         let expected = nodes.checked_mul(4 * COMPONENTS)?.checked_add(12)?.checked_mul(8)?;
-        if bytes.len() != expected || nodes < 2 {
+        let per_node = match bytes.len().checked_sub(expected)? {
+            0 => 0,
+            more if more == 4 * 8 * nodes => 2,
+            _ => return None,
+        };
+        if nodes < 2 {
             return None;
         }
         let fresh = match words.next()? {
@@ -76,8 +87,11 @@ impl Snapshot {
             Some(field)
         };
         let (u, v, a, earlier) = (field()?, field()?, field()?, field()?);
+        let mut list = || (0..per_node * nodes).map(|_| number()).collect::<Option<Vec<f64>>>();
+        let tensions = Tensions { now: list()?, before: list()? };
         Some(Snapshot {
             moment: Moment { state: State { clock, u, v, a }, earlier, last_step, step, guard },
+            tensions,
             work,
             fresh,
             error,
