@@ -415,7 +415,7 @@ fn ten_thousand_nodes_and_twelve_types_are_read() {
     large.constraints[1].node = 9_999;
     let text = writing::text(&large);
     assert_eq!(deck(&text), large);
-    let loaded = loaded(&text, &["solver.hydrostatic_strain=false"]);
+    let loaded = loaded(&text, &[]);
     assert_eq!((loaded.scene.line_types.len(), loaded.scene.lines[0].sections.len()), (12, 9_999));
     assert_eq!(loaded.state.map(|state| state.nodes.len()), Some(10_000));
 }
@@ -431,7 +431,7 @@ fn the_check_of_a_scene_names_the_line_of_the_file() {
 
 #[test]
 fn a_file_is_known_by_its_content_and_sets_speak_of_its_scene() {
-    let loaded = loaded(DYNAMIC, &["solver.hydrostatic_strain=false", "environment.depth=130", "run.duration=5"]);
+    let loaded = loaded(DYNAMIC, &["environment.depth=130", "run.duration=5"]);
     assert_eq!((loaded.scene.environment.depth, loaded.scene.run.duration), (130.0, 5.0));
     assert!(loaded.deck.is_some() && loaded.state.is_some());
     let titled = DYNAMIC.replacen("Dynamic analysis", "{Dynamic analysis", 1);
@@ -625,9 +625,11 @@ mod program {
             let here = directory(&format!("restart-{scheme}"));
             let whole = Deck { end: 4.0, ..deck(DYNAMIC) };
             let set = format!("solver.scheme={scheme}");
-            let sets = ["--quiet", "--set", &set, "--set", "solver.hydrostatic_strain=false"];
+            let sets = ["--quiet", "--set", &set];
             let run = |file: &str, to: &str| {
                 done(&here, &[&["run", file, "-o", to][..], &sets[..]].concat());
+                let summary = read(here.join(to).join("summary.json"));
+                assert!(!summary.contains("equilibrium"), "nodes of the static example are in equilibrium: {summary}");
                 rows(&read(here.join(to).join("timeseries.csv")))
             };
             write(&here, "whole.dat", &writing::text(&whole));
