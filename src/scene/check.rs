@@ -8,7 +8,7 @@ mod cable_1994;
 
 use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;
-use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Scheme, Triple, Waves};
+use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Triple, Waves};
 
 /// Largest size of any number.
 const LARGEST: f64 = 1.0e15;
@@ -27,7 +27,7 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 29] = [
+const RULES: [Rule; 30] = [
     gravity,
     water_density,
     depth,
