@@ -100,6 +100,11 @@ impl Newton {
         self.rate = 1.0;
     }
 
+    /// Forgets how well the factor at hand served.
+    pub fn doubt(&mut self) {
+        self.rate = 1.0;
+    }
+
     /// Factors the tangent of a motion.
     pub fn factor(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: Option<&[f64]>) -> Result<(), Stall> {
         self.factored = None;
