@@ -359,7 +359,7 @@ const BAD: &[(&str, &str, &[&str])] = &[
         " 1.35350E+02 1.3535OE+02 1.35350E+02",
         &["line 33, column 14", "MEL", "`1.3535OE+02`"],
     ),
-    ("    27.11070   -13.02786", "    27.11.70   -13.02786", &["R, position of node 2", "`27.11.70`", "line 44, column 5"]),
+    ("    27.11070   -13.02786", "    27.11.70   -13.02786", &["R, position of node 2", "`27.11.70`", "line 45, column 5"]),
     (" 1.32174E+06 1.31435E+06 ", " 1.32174E+06         Inf ", &["LAMBDA at node 2", "Inf", "finite"]),
     ("Node No. 41", "Node No. 42", &["NODEC", "42 is not allowed", "1 to 41"]),
     ("Node No. 41", "Node No.  1", &["NODEC", "second time"]),
@@ -517,7 +517,7 @@ proptest! {
         deck.elements[2].length = value.abs().max(0.1);
         deck.types[0].mass = [value.abs().max(0.1); 3];
         let read = self::deck(&writing::text(&deck));
-        let close = |a: f64, b: f64| (a - b).abs() <= 1e-5 * b.abs() + 1e-12;
+        let close = |a: f64, b: f64| (a - b).abs() <= 2e-5 * b.abs() + 1e-12;
         prop_assert!(close(read.currents[1].1[0], value), "{} {}", read.currents[1].1[0], value);
         prop_assert!(close(read.elements[2].length, value.abs().max(0.1)) || value.abs() < 1.0);
         prop_assert!(close(read.types[0].mass[0], value.abs().max(0.1)));

@@ -345,7 +345,9 @@ impl Losses {
             });
             self.add(of.tension_strain.is_some(), || format!("{}: the table is replaced by `ea`", at("tension_strain")));
             let pressed = of.inner_fluid.as_ref().is_some_and(|fluid| fluid.pressure != 0.0);
-            self.add(pressed, || format!("{}: the fluid inside has the pressure of the water outside", at("inner_fluid.pressure")));
+            self.add(pressed, || {
+                format!("{}: the fluid inside has the pressure of the water outside", at("inner_fluid.pressure"))
+            });
             self.add(of.breaking_load.is_some(), || format!("{}: it is left out", at("breaking_load")));
             for (key, own, other) in [
                 ("drag.normal", of.drag.normal, first.map(|first| first.drag.normal)),
