@@ -42,7 +42,8 @@ impl Relaxation {
         self.trial.copy_from(state);
         newton.forget();
         let solved = newton.solve(line, &weights, &mut self.trial, &self.criteria).is_ok();
-        if solved {
+        // A search that ran out of iterations stopped where the energy was less, which is as good a place to start from.
+        if solved || self.trial.u.numbers().all(|x| x.is_finite()) {
             state.u.copy_from(&self.trial.u);
         }
         self.h = (self.h * if solved { LONGER } else { SHORTER }).min(RANGE[1] * self.first);

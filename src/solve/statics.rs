@@ -57,10 +57,15 @@ pub fn settle(line: &dyn Line, soften: &dyn Fn(f64) -> Box<dyn Line>, newton: &m
     let mut best = (direct, state.u.clone());
     let mut iterations = direct.iterations;
     for fallback in FALLBACKS {
-        state.u.copy_from(&start);
         let reached = match &fallback {
-            Fallback::Relax => walk.relax(line, newton, state, &mut iterations),
-            Fallback::Climb(ladder) => walk.climb(line, soften, newton, state, ladder, &mut iterations),
+            Fallback::Relax => {
+                state.u.copy_from(&best.1);
+                walk.relax(line, newton, state, &mut iterations)
+            }
+            Fallback::Climb(ladder) => {
+                state.u.copy_from(&start);
+                walk.climb(line, soften, newton, state, ladder, &mut iterations)
+            }
         };
         if reached.judged().converged() {
             return Balance { iterations, ..reached.judged() };
@@ -87,15 +92,15 @@ struct Ladder {
 
 /// What is tried where Newton's method alone does not reach equilibrium.
 enum Fallback {
-    /// Motion without swing.
+    /// Motion without swing, from the best state so far.
     Relax,
     /// A softened line first.
     Climb(Ladder),
 }
 
 const FALLBACKS: [Fallback; 3] = [
-    Fallback::Relax,
     Fallback::Climb(Ladder { softest: 10.0, ratio: 10.0, iterations: [60, 400], inertia: 1.0 }),
+    Fallback::Relax,
     Fallback::Climb(Ladder { softest: 3.0, ratio: 3.0, iterations: [80, 600], inertia: 30.0 }),
 ];
 /// Newton iterations of a relaxation.
