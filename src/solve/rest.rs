@@ -9,8 +9,10 @@
 //! it went into stretching one element of length ℓ, its tension would change by no more than δT [N].
 
 use crate::rod::element::Weights;
-use crate::rod::line::Line;
+use crate::rod::line::{Line, Supports};
+use crate::rod::physics::Decision;
 use crate::rod::state::{Field, State};
+use crate::scene::types::Scene;
 use crate::solve::newton::{Newton, motion};
 
 /// Whether no tension of the line can change by more than `allowed` [N] while its ends are held. A line without stiffness of its own (a
@@ -36,4 +38,18 @@ pub fn rests(line: &dyn Line, newton: &mut Newton, state: &State, allowed: f64) 
     newton.forget();
     let stretched = force.dot(&change);
     factored && stretched >= 0.0 && moving + stretched <= enough
+}
+
+/// Whether steps are taken of a line at rest.
+pub fn decision(scene: &Scene, supports: &Supports) -> Decision {
+    let (on, reason) = if scene.solver.uncontrolled_step().is_some() {
+        (true, "solver.fixed_step asks for every step")
+    } else if scene.environment.waves.is_some() {
+        (true, "waves keep the line in motion")
+    } else if !supports.holds.is_empty() {
+        (true, "constraints may move the line")
+    } else {
+        (false, "no steps while the fairlead stays and no tension can change by a hundredth of the tolerance")
+    };
+    Decision { physics: "steps at rest", on, reason: reason.to_string() }
 }

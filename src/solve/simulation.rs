@@ -210,7 +210,7 @@ impl Simulation {
         let (mixed, report) = mixed.unzip();
         let decisions = report.unwrap_or_else(|| {
             let mut decisions = physics::decisions(scene, &mesh, &supports);
-            decisions.push(steps_at_rest(scene, &supports));
+            decisions.push(rest::decision(scene, &supports));
             decisions
         });
         let (nodes, length) = (mesh.nodes(), mesh.length);
@@ -753,20 +753,6 @@ impl Simulation {
     pub fn last_step(&self) -> LastStep {
         self.last
     }
-}
-
-/// Whether steps are taken of a line at rest.
-fn steps_at_rest(scene: &Scene, supports: &Supports) -> Decision {
-    let (on, reason) = if scene.solver.uncontrolled_step().is_some() {
-        (true, "solver.fixed_step asks for every step")
-    } else if scene.environment.waves.is_some() {
-        (true, "waves keep the line in motion")
-    } else if !supports.holds.is_empty() {
-        (true, "constraints may move the line")
-    } else {
-        (false, "no steps while the fairlead stays and no tension can change by a hundredth of the tolerance")
-    };
-    Decision { physics: "steps at rest", on, reason: reason.to_string() }
 }
 
 /// The fairlead takes up the velocity and acceleration of its path, the line the accelerations that fit.
