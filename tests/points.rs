@@ -202,7 +202,7 @@ fn a_mass_locked_to_a_skew_rail_moves_along_it_alone() {
             worst = worst.max((moved.dot(&along) - exact).abs());
             off = off.max((moved - along * moved.dot(&along)).norm());
         });
-        assert_small("off the rail [m]", off, 1e-12);
+        assert_small("off the rail [m]", off, 1e-11);
         assert_small("along the rail [m]", worst, 2e-3);
     }
 }
@@ -360,7 +360,7 @@ fn a_load_on_a_stiff_line_bends_it_as_a_tensioned_beam() {
 }
 
 /// The derivative of steps already taken, with a body, springs and a moving lock on the line, against runs along paths that differ by
-/// ± 1e-4 of the variation.
+/// ± 1e-3 of the variation. An axial wave crosses the line in 0.9 s, so that both ends have felt it.
 #[test]
 fn derivatives_of_steps_are_the_differences_of_runs() {
     let mut scene = hanging(500.0, 400.0, 150.0, Some(12), json!([{"s": 150.0, "mass": 9000.0, "drag_area": 2.0}]));
@@ -369,7 +369,7 @@ fn derivatives_of_steps_are_the_differences_of_runs() {
          "motion": {"period": 4, "sine": [0.2, 0.1, 0], "ramp": 0}},
         {"s": 500.0, "stiffness": [1e5, 1e5, 1e5], "damping": [1e3, 0, 0]},
     ]);
-    scene["solver"] = json!({"fixed_step": 0.05});
+    scene["solver"] = json!({"fixed_step": 0.05, "tolerance": 1e-6});
     let (mut line, _) = simulation(&scene);
     let path = |share: f64| {
         let (along, varied) = (Vector3::new(0.8, 0.1, -0.3), Vector3::new(-0.2, 0.7, 0.4));
@@ -378,16 +378,16 @@ fn derivatives_of_steps_are_the_differences_of_runs() {
     let variation =
         Path::Polynomial { start: 0.0, coefficients: vec![Vector3::zeros(), Vector3::zeros(), Vector3::new(-0.2, 0.7, 0.4)] };
     let from = line.snapshot();
-    let steps = line.linearise(0.6, &path(0.0)).unwrap_or_else(|error| panic!("{error}"));
+    let steps = line.linearise(2.0, &path(0.0)).unwrap_or_else(|error| panic!("{error}"));
     let found = line.derivative(&steps, &variation).unwrap_or_else(|error| panic!("{error}"));
     let mut run = |share: f64| {
         assert!(line.restore(&from));
-        line.advance(0.6, &path(share)).unwrap_or_else(|error| panic!("{error}"));
+        line.advance(2.0, &path(share)).unwrap_or_else(|error| panic!("{error}"));
         line.outputs()
     };
-    let (after, before) = (run(1e-4), run(-1e-4));
-    assert_close("tension", found.tension, (after.tension - before.tension) / 2e-4, 1e-4);
-    assert_close("at the springs", found.anchor_force.x, (after.anchor_force.x - before.anchor_force.x) / 2e-4, 1e-3);
+    let (after, before) = (run(1e-3), run(-1e-3));
+    assert_close("tension", found.tension, (after.tension - before.tension) / 2e-3, 1e-3);
+    assert_close("at the springs", found.anchor_force.x, (after.anchor_force.x - before.anchor_force.x) / 2e-3, 1e-3);
 }
 
 /// Source: Airy in deep water and Froude & Krylov: a body at rest at depth z feels (A + ρΩ) a ω² e^(kz) at the least and most; without
