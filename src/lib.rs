@@ -115,6 +115,7 @@ pub mod fmi {
     pub mod input_path;
     pub mod instance;
     pub mod pack;
+    pub mod phase;
     pub mod refusal;
     pub mod resource;
     pub mod snapshot;

@@ -10,7 +10,8 @@
 //! reason to call these functions (`instance` is for it), and if it does, other panics still reach its hook.
 #![allow(non_snake_case)]
 
-use crate::fmi::instance::{Instance, StepStatus};
+use crate::fmi::instance::Instance;
+use crate::fmi::phase::StepStatus;
 use crate::fmi::refusal::Refusal;
 use crate::fmi::variables::Kind;
 use std::cell::Cell;

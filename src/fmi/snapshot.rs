@@ -4,7 +4,8 @@
 //! checksum over all before it (16). Text of the instance's log and other handed-out states are not part of it.
 
 use crate::fmi::input_path::{CAPACITY, InputPath, Inputs, Sample};
-use crate::fmi::instance::{Experiment, Phase, StepStatus};
+use crate::fmi::instance::Experiment;
+use crate::fmi::phase::{Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource::fingerprint;
 use crate::solve::simulation::{LastStep, Outputs};

@@ -108,11 +108,6 @@ impl Newton {
         self.rough = false;
     }
 
-    /// Forgets how well the factor at hand served.
-    pub fn doubt(&mut self) {
-        self.rate = 1.0;
-    }
-
     /// Factors the tangent of a motion.
     pub fn factor(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: Option<&[f64]>) -> Result<(), Stall> {
         self.factored = None;
