@@ -42,6 +42,7 @@ pub mod rod {
     pub mod bending;
     pub mod catenary;
     pub mod element;
+    pub mod friction;
     pub mod grading;
     pub mod joint;
     pub mod line;

@@ -130,7 +130,7 @@ fn line_of(physics: &Physics) -> Box<dyn Line> {
         ground: physics.bed.map(|bed| {
             let normal = Vector3::new(-bed.tilt, 0.5 * bed.tilt, 1.0).normalize();
             let resistance = Resistance { stiffness: 900.0, damping: bed.damping, onset: 0.3, easing: 0.4 };
-            Ground { plane: Plane { normal, offset: -0.9 }, resistance: vec![resistance; mesh.elements.len()] }
+            Ground { plane: Plane { normal, offset: -0.9 }, resistance: vec![resistance; mesh.elements.len()], friction: None }
         }),
         surface: physics.surface.then(|| Surface::new(&mesh)),
     };
@@ -158,7 +158,7 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
 
 fn residual(line: &dyn Line, state: &State) -> Field {
     let mut out = Field::new(line.mesh().nodes());
-    line.residual(&Motion { u: &state.u, v: &state.v, a: &state.a }, &mut out);
+    line.residual(&Motion { u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }, &mut out);
     out
 }
 
@@ -167,7 +167,7 @@ fn residual(line: &dyn Line, state: &State) -> Field {
 fn error(line: &dyn Line, state: &State, weights: &Weights, random: &mut Random, d: f64) -> f64 {
     let direction = random.field(line.mesh(), 1.0, 1.0);
     let mut matrix = BlockTridiagonal::new(line.mesh().ties());
-    line.tangent(&Motion { u: &state.u, v: &state.v, a: &state.a }, weights, None, &mut matrix);
+    line.tangent(&Motion { u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }, weights, None, &mut matrix);
     let product = times(&matrix, &direction);
     let moved = |sign: f64| {
         let mut moved = state.clone();

@@ -31,6 +31,8 @@ pub struct Motion<'a> {
     pub v: &'a Field,
     /// Their second rates.
     pub a: &'a Field,
+    /// Places of the bed to which the line holds on by friction.
+    pub holds: &'a Field,
 }
 
 /// Weights of the tangent: c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a.
@@ -198,6 +200,11 @@ impl Ends<f64> {
     /// Element `e`, of length `length`.
     pub fn gather(field: &Field, e: usize, length: f64) -> Ends<f64> {
         Ends::load((), &field.rows(), e, length)
+    }
+
+    /// Component along a vector as a cubic.
+    pub fn along(&self, direction: &Vector3<f64>) -> Cubic {
+        Cubic(self.control_values(direction))
     }
 
     /// Height (third component) as a cubic.

@@ -4,6 +4,7 @@
 //! compiled into its loop.
 
 use crate::rod::bending::{Bending, Flexible, Stiff};
+use crate::rod::friction::Friction;
 use crate::rod::line::{Line, Rod, Supports};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{NoWater, Still, Water};
@@ -50,6 +51,19 @@ impl Surroundings {
     }
 }
 
+impl Surroundings {
+    /// The same without friction.
+    pub fn without_friction(&self) -> Surroundings {
+        Surroundings { ground: self.ground.clone().map(|ground| Ground { friction: None, ..ground }), ..self.clone() }
+    }
+
+    /// The same with the friction of statics on a mesh.
+    pub fn laid(&self, mesh: &Mesh) -> Surroundings {
+        let laid = |ground: Ground| Ground { friction: ground.friction.map(|friction| friction.laid(mesh)), ..ground };
+        Surroundings { ground: self.ground.clone().map(laid), ..self.clone() }
+    }
+}
+
 /// The line of a mesh with the physics that it needs.
 pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
     match surroundings.stretch {
@@ -90,12 +104,13 @@ pub fn ground(environment: &Environment, mesh: &Mesh) -> Ground {
     let plane = Plane::of(environment);
     let resistance = (0..mesh.elements.len()).map(|e| {
         let properties = mesh.properties_of(e);
-        let sinking = if properties.weight > 0.0 { properties.weight } else { properties.weight_in_air };
-        let stiffness = environment.seabed.stiffness.unwrap_or(sinking / properties.diameter);
+        let stiffness = environment.seabed.stiffness.unwrap_or(properties.sinking_weight() / properties.diameter);
         let onset = properties.weight.max(0.0) * plane.normal.z / stiffness;
         Resistance { stiffness, damping: environment.seabed.damping, onset, easing: onset.max(0.1 * properties.diameter) }
     });
-    Ground { plane, resistance: resistance.collect() }
+    let resistance = resistance.collect();
+    let coefficient = environment.seabed.friction;
+    Ground { plane, resistance, friction: (coefficient > 0.0).then(|| Friction::new(coefficient, &plane, mesh)) }
 }
 
 /// What is in the step of a line and why.
@@ -116,6 +131,12 @@ pub fn decisions(scene: &Scene, mesh: &Mesh) -> Vec<Decision> {
         ),
         decide("seabed", true, "elements that touch it pay for it, others only for a look at their height", ""),
         decide("seabed damping", scene.environment.seabed.damping > 0.0, "seabed.damping > 0", "seabed.damping is 0"),
+        decide(
+            "seabed friction",
+            scene.environment.seabed.friction > 0.0,
+            "seabed.friction > 0: elements that touch pay for it",
+            "seabed.friction is 0",
+        ),
         decide("water surface", pierced, "surface is pierced: elements that rise above it pay for it", "surface is none"),
     ]
 }

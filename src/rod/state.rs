@@ -112,9 +112,10 @@ impl Field {
         self.data.iter().zip(&x.data).map(|(a, b)| a * b).sum()
     }
 
-    /// Copies all numbers of a field of the same size.
+    /// Becomes the same as another field, without allocation if it is not larger.
     pub fn copy_from(&mut self, x: &Field) {
-        self.data.copy_from_slice(&x.data);
+        (self.nodes, self.stride) = (x.nodes, x.stride);
+        self.data.clone_from(&x.data);
     }
 
     /// Sets all numbers but the padding.
@@ -123,7 +124,7 @@ impl Field {
     }
 }
 
-/// Unknowns u, their rates v = du/dt and a = dv/dt.
+/// Unknowns u, their rates v = du/dt and a = dv/dt, and what friction remembers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Positions and slopes.
@@ -132,12 +133,15 @@ pub struct State {
     pub v: Field,
     /// Accelerations.
     pub a: Field,
+    /// Places of the bed to which the line holds on by friction [m]: for element e, at e, two coordinates of each of its three Gauss
+    /// points. Empty without friction.
+    pub holds: Field,
 }
 
 impl State {
-    /// A line of `nodes` nodes, all zero.
+    /// A line of `nodes` nodes without friction, all zero.
     pub fn new(nodes: usize) -> State {
-        State { u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes) }
+        State { u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes), holds: Field::new(0) }
     }
 
     /// Copies the state of a line with as many nodes, without allocation.
@@ -145,6 +149,7 @@ impl State {
         self.u.copy_from(&from.u);
         self.v.copy_from(&from.v);
         self.a.copy_from(&from.a);
+        self.holds.copy_from(&from.holds);
     }
 }
 
@@ -169,7 +174,7 @@ impl WithSimd for Retreat<'_> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> f64 {
         let (stride, x) = (self.increment.stride, self.increment.data.as_slice());
-        let State { u, v, a } = self.state;
+        let State { u, v, a, .. } = self.state;
         let [c_u, c_v, c_a] = self.factors;
         let (mut largest, mut finite) = (Lanes::splat(cpu, 0.0), Lanes::splat(cpu, 0.0));
         for (part, scale) in self.scales.into_iter().enumerate() {

@@ -66,9 +66,6 @@ fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
     if scene.environment.waves.is_some() {
         return unsupported("environment.waves".into(), "waves; remove them for still water");
     }
-    if scene.environment.seabed.friction != 0.0 {
-        return unsupported("environment.seabed.friction".into(), "friction of the seabed; set it to 0");
-    }
     for (name, line_type) in &scene.line_types {
         if line_type.tension_strain.is_some() {
             return unsupported(in_type(name, "tension_strain"), "tension–strain tables; remove it to use `ea` alone");

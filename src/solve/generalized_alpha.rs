@@ -58,6 +58,7 @@ impl Scheme for GeneralizedAlpha {
         blend(&mut self.between.u, ALPHA_F, &next.u, &start.u);
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
+        self.between.holds.copy_from(&next.holds);
         let driving = bench.path.at(from.time + (1.0 - ALPHA_F) * h).acceleration;
         self.between.a.set_position(bench.line.last(), &driving);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };

@@ -274,5 +274,5 @@ impl Newton {
 
 /// The motion of a state.
 pub fn motion(state: &State) -> Motion<'_> {
-    Motion { u: &state.u, v: &state.v, a: &state.a }
+    Motion { u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }
 }

@@ -75,6 +75,7 @@ pub fn along(line: &dyn Line, state: &State, change: &State, step: f64) -> Outpu
         moved.u.add(factor, &change.u);
         moved.v.add(factor, &change.v);
         moved.a.add(factor, &change.a);
+        moved.holds.add(factor, &change.holds);
         outputs(line, &moved, 0.0, 0.0)
     };
     let (after, before) = (moved(step), moved(-step));
@@ -115,6 +116,7 @@ pub fn end_along(line: &dyn Line, state: &State, change: &State) -> EndChange {
         moved.u.add(factor, &change.u);
         moved.v.add(factor, &change.v);
         moved.a.add(factor, &change.a);
+        moved.holds.add(factor, &change.holds);
         line.end_force(&motion(&moved))
     };
     EndChange {

@@ -16,8 +16,8 @@ pub use crate::solve::outputs::{NodeOutput, Outputs};
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
 use crate::solve::start::{self, Bounds};
-use crate::solve::statics;
-use crate::solve::tangent::LinearStage;
+use crate::solve::statics::{self, Balance};
+use crate::solve::tangent::{self, LinearStage};
 use nalgebra::Vector3;
 
 /// How statics went.
@@ -152,7 +152,7 @@ impl Simulation {
                 fixed_step: solver.fixed_step,
                 criteria,
             },
-            moment: controller::at_rest(nodes, 0.0, solver.max_step),
+            moment: controller::at_rest(line.as_ref(), 0.0, solver.max_step),
             line,
             work: 0.0,
             fresh: true,
@@ -163,18 +163,10 @@ impl Simulation {
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
     /// On `Err(Error::Statics)` the best state found stands, so that it can be looked at.
     pub fn settle(&mut self, fairlead: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
-        let nodes = self.line.mesh().nodes();
-        self.moment = controller::at_rest(nodes, time, self.demands.max_step);
+        self.moment = controller::at_rest(self.line.as_ref(), time, self.demands.max_step);
         start::guess(self.line.mesh(), &self.bounds, &self.anchor, &fairlead, &mut self.moment.state.u);
-        let (mesh, surroundings) = (self.line.mesh(), &self.surroundings);
-        let soften = |limit: f64| {
-            let mut soft = mesh.clone();
-            soft.sections.iter_mut().for_each(|section| section.ea = section.ea.min(limit));
-            let supports = Supports::pinned(&soft);
-            physics::build(soft, surroundings.clone(), supports)
-        };
-        let balance = statics::settle(self.line.as_ref(), &soften, &mut self.newton, &mut self.moment.state);
-        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).sqrt() * self.tolerance * self.tension_length();
+        let (balance, smooth) = self.balance();
+        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).sqrt() * self.tolerance * self.tension_length(smooth.as_ref());
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
@@ -191,11 +183,34 @@ impl Simulation {
         })))
     }
 
+    /// Finds the equilibrium without friction, and from there, if there is friction, that of the line as it is laid and the places of the
+    /// bed that hold it there; returns the line without friction, too.
+    fn balance(&mut self) -> (Balance, Box<dyn Line>) {
+        let (surroundings, rough) = (&self.surroundings, self.line.holding_nodes() > 0);
+        let build = |limit: f64, laid: bool| {
+            let mut mesh = self.line.mesh().clone();
+            mesh.sections.iter_mut().for_each(|section| section.ea = section.ea.min(limit));
+            let (surroundings, supports) =
+                (if laid { surroundings.laid(&mesh) } else { surroundings.without_friction() }, Supports::pinned(&mesh));
+            physics::build(mesh, surroundings, supports)
+        };
+        let (smooth, state, newton) = (build(f64::INFINITY, false), &mut self.moment.state, &mut self.newton);
+        let mut balance = statics::settle(smooth.as_ref(), &|limit| build(limit, false), newton, state);
+        if rough && balance.converged() {
+            let (laid, before) = (build(f64::INFINITY, true), balance.iterations);
+            laid.lay(&state.u, &mut state.holds);
+            balance = statics::settle(laid.as_ref(), &|limit| build(limit, true), newton, state);
+            balance.iterations += before;
+            laid.hold(&state.u, &state.v, &mut state.holds);
+        }
+        (balance, smooth)
+    }
+
     /// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
-    fn tension_length(&mut self) -> f64 {
-        let length = self.line.mesh().length;
-        let tension = self.line.end_force(&motion(&self.moment.state)).norm();
-        let stiffness = self.newton.fairlead_stiffness(self.line.as_ref(), &self.moment.state).map_or(0.0, |k| k.norm());
+    fn tension_length(&mut self, line: &dyn Line) -> f64 {
+        let length = line.mesh().length;
+        let tension = line.end_force(&motion(&self.moment.state)).norm();
+        let stiffness = self.newton.fairlead_stiffness(line, &self.moment.state).map_or(0.0, |k| k.norm());
         if stiffness > 0.0 { (tension / stiffness).clamp(1e-5 * length, 0.02 * length) } else { 0.02 * length }
     }
 
@@ -323,7 +338,8 @@ impl Simulation {
 
     /// Puts back a state of this line; false, and nothing changed, if it belongs to a line with another number of nodes.
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
-        if snapshot.nodes() != self.line.mesh().nodes() {
+        let holds = &snapshot.moment.state.holds;
+        if snapshot.nodes() != self.line.mesh().nodes() || holds.nodes() != self.line.holding_nodes() {
             return false;
         }
         self.newton.forget();
@@ -341,7 +357,7 @@ impl Simulation {
             jerk.set_sum(&state.a, -1.0, &moment.earlier);
             jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
         }
-        let rate = State { u: state.v.clone(), v: state.a.clone(), a: jerk };
+        let rate = State { u: state.v.clone(), v: state.a.clone(), a: jerk, holds: tangent::hold_rate(self.line.as_ref(), state) };
         let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0e-4);
         let velocity = state.v.position(self.line.last());
         (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));
@@ -390,7 +406,7 @@ impl Simulation {
         for direction in directions {
             let stages = Stages::Linear(linear.iter());
             let mut bench = Bench { line, newton: &mut self.newton, path: direction, criteria, stages };
-            let mut change = controller::at_rest(line.mesh().nodes(), time, 0.0);
+            let mut change = controller::at_rest(line, time, 0.0);
             if fresh {
                 begin(&mut bench, &mut change).map_err(failed)?;
             }
@@ -399,6 +415,7 @@ impl Simulation {
             let mut before = outputs::end_along(line, &states[0], &change.state);
             self.controller
                 .repeat(&mut bench, &legs, &mut change, |change, number| {
+                    tangent::hold(line, &states[number + 1], &states[number].holds, &mut change.state);
                     let now = outputs::end_along(line, &states[number + 1], &change.state);
                     work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
                     work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));

@@ -20,13 +20,20 @@ impl Snapshot {
         self.moment.state.u.nodes()
     }
 
-    /// Appends the state as little-endian 8-byte words: nodes, flags and counts, scalars, then u, v, a and the earlier a.
+    /// Appends the state as little-endian 8-byte words: nodes, flags and counts, scalars, then u, v, a, the
+    /// earlier a and what friction holds on to.
     pub fn to_bytes(&self, out: &mut Vec<u8>) {
         let (m, last) = (&self.moment, &self.last);
-        let words =
-            [self.nodes() as u64, u64::from(self.fresh), u64::from(m.guard), last.substeps as u64, last.newton_iterations as u64];
+        let words = [
+            self.nodes() as u64,
+            m.state.holds.nodes() as u64,
+            u64::from(self.fresh),
+            u64::from(m.guard),
+            last.substeps as u64,
+            last.newton_iterations as u64,
+        ];
         let scalars = [m.time, m.last_step, m.step, self.work, self.error, last.error_estimate];
-        let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier];
+        let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds];
         let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).map(|x| x.to_bits());
         words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
     }
@@ -35,8 +42,9 @@ impl Snapshot {
     pub fn from_bytes(bytes: &[u8]) -> Option<Snapshot> {
         let mut words = bytes.chunks_exact(8).map(|chunk| chunk.try_into().map(u64::from_le_bytes).unwrap_or(0));
         let nodes = usize::try_from(words.next()?).ok()?;
-        let expected = nodes.checked_mul(4 * COMPONENTS)?.checked_add(11)?.checked_mul(8)?;
-        if bytes.len() != expected || nodes < 2 {
+        let holding = usize::try_from(words.next()?).ok()?;
+        let numbers = nodes.checked_mul(4)?.checked_add(holding)?.checked_mul(COMPONENTS)?;
+        if bytes.len() != numbers.checked_add(12)?.checked_mul(8)? || nodes < 2 {
             return None;
         }
         let fresh = match words.next()? {
@@ -49,7 +57,7 @@ impl Snapshot {
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
         let (time, last_step, step, work, error, error_estimate) =
             (number()?, number()?, number()?, number()?, number()?, number()?);
-        let mut field = || {
+        let mut field = |nodes| {
             let mut field = Field::new(nodes);
             for c in 0..COMPONENTS {
                 for x in field.component_mut(c) {
@@ -58,9 +66,9 @@ impl Snapshot {
             }
             Some(field)
         };
-        let (u, v, a, earlier) = (field()?, field()?, field()?, field()?);
+        let (u, v, a, earlier, holds) = (field(nodes)?, field(nodes)?, field(nodes)?, field(nodes)?, field(holding)?);
         Some(Snapshot {
-            moment: Moment { time, state: State { u, v, a }, earlier, last_step, step, guard },
+            moment: Moment { time, state: State { u, v, a, holds }, earlier, last_step, step, guard },
             work,
             fresh,
             error,
