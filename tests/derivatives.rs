@@ -4,11 +4,12 @@ mod support;
 
 use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::rod::element::{Motion, Weights};
+use moorline::rod::friction::Friction;
 use moorline::rod::line::{Line, Supports};
 use moorline::rod::mesh::{Mesh, Properties};
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::seabed::{Plane, Resistance};
-use moorline::rod::state::{Field, State};
+use moorline::rod::state::{COMPONENTS, Field, State};
 use moorline::rod::touching::{Ground, Surface};
 use moorline::scene::read;
 use moorline::scene::types::{CurrentPoint, Stretch};
@@ -70,16 +71,18 @@ struct Physics {
 struct Bed {
     damping: f64,
     tilt: f64,
+    friction: f64,
 }
 
-const FLAT_DAMPED: Bed = Bed { damping: 100.0, tilt: 0.0 };
+const FLAT_DAMPED: Bed = Bed { damping: 100.0, tilt: 0.0, friction: 0.0 };
 
-const BEDS: [Option<Bed>; 5] = [
+const BEDS: [Option<Bed>; 6] = [
     None,
     Some(FLAT_DAMPED),
-    Some(Bed { damping: 0.0, tilt: 0.0 }),
-    Some(Bed { damping: 0.0, tilt: 0.3 }),
-    Some(Bed { damping: 200.0, tilt: 0.3 }),
+    Some(Bed { damping: 0.0, tilt: 0.0, friction: 0.0 }),
+    Some(Bed { damping: 0.0, tilt: 0.3, friction: 0.0 }),
+    Some(Bed { damping: 200.0, tilt: 0.3, friction: 0.0 }),
+    Some(Bed { damping: 0.0, tilt: 0.3, friction: 0.6 }),
 ];
 
 /// All combinations.
@@ -130,7 +133,9 @@ fn line_of(physics: &Physics) -> Box<dyn Line> {
         ground: physics.bed.map(|bed| {
             let normal = Vector3::new(-bed.tilt, 0.5 * bed.tilt, 1.0).normalize();
             let resistance = Resistance { stiffness: 900.0, damping: bed.damping, onset: 0.3, easing: 0.4 };
-            Ground { plane: Plane { normal, offset: -0.9 }, resistance: vec![resistance; mesh.elements.len()], friction: None }
+            let plane = Plane { normal, offset: -0.9 };
+            let friction = (bed.friction > 0.0).then(|| Friction::new(bed.friction, &plane, &mesh));
+            Ground { plane, resistance: vec![resistance; mesh.elements.len()], friction }
         }),
         surface: physics.surface.then(|| Surface::new(&mesh)),
     };
@@ -152,6 +157,12 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
         state.u.set_slope(node, &(state.u.slope(node) + slope * stretched));
         state.v.set_position(node, &(state.v.position(node) + velocity));
         state.a.set_position(node, &(state.a.position(node) + acceleration));
+    }
+    // Places to hold on to as if half of the line had just moved by up to some breakaway distances.
+    state.holds = Field::new(line.holding_nodes());
+    line.hold(&state.u, &state.v, &mut state.holds);
+    for c in 0..if line.holding_nodes() > 0 { COMPONENTS } else { 0 } {
+        state.holds.component_mut(c).iter_mut().for_each(|hold| *hold += 0.1 * random.next());
     }
     state
 }
