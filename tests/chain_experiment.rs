@@ -11,11 +11,8 @@ const MEASURED: [(f64, f64, f64); 6] =
 
 /// Mean maximum of cycles 6 to 8 (the motion is eased in over 3.25).
 fn mean_maximum(period: f64, radius: f64) -> f64 {
-    let sets = [
-        format!("motion.period={period}"),
-        format!("motion.sine=[{radius},0,0]"),
-        format!("motion.cosine=[0,0,{radius}]"),
-    ];
+    let sets =
+        [format!("motion.period={period}"), format!("motion.sine=[{radius},0,0]"), format!("motion.cosine=[0,0,{radius}]")];
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/chain_experiment.json");
     let loaded = read::load(std::path::Path::new(file), &sets).unwrap_or_else(|error| panic!("{error}"));
     let mut simulation = Simulation::new(&loaded.scene, 0).unwrap_or_else(|error| panic!("{error}"));

@@ -211,5 +211,10 @@ fn the_derivative_of_a_step_knows_what_friction_holds_on_to() {
     };
     let (up, down) = (after(1e-3), after(-1e-3));
     assert_close("tension", exact[0].tension, (up.tension - down.tension) / 2e-3, 1e-3);
-    assert_close("tension at the anchor", 1.0 + exact[0].anchor_tension / exact[0].tension, 1.0 + (up.anchor_tension - down.anchor_tension) / 2e-3 / exact[0].tension, 1e-3);
+    assert_close(
+        "tension at the anchor",
+        1.0 + exact[0].anchor_tension / exact[0].tension,
+        1.0 + (up.anchor_tension - down.anchor_tension) / 2e-3 / exact[0].tension,
+        1e-3,
+    );
 }

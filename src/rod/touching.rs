@@ -83,14 +83,7 @@ impl Ground {
     }
 
     /// Part `g` of element `e` and the place of the bed to which it holds on.
-    fn contact(
-        &self,
-        u: &Ends<f64>,
-        profile: &Cubic,
-        rates: &Cubic,
-        (e, g): (usize, usize),
-        holds: &Field,
-    ) -> Contact {
+    fn contact(&self, u: &Ends<f64>, profile: &Cubic, rates: &Cubic, (e, g): (usize, usize), holds: &Field) -> Contact {
         let resistance = &self.resistance[e];
         let push: f64 = resistance
             .touching(profile)

@@ -166,7 +166,8 @@ impl Simulation {
         self.moment = controller::at_rest(self.line.as_ref(), time, self.demands.max_step);
         start::guess(self.line.mesh(), &self.bounds, &self.anchor, &fairlead, &mut self.moment.state.u);
         let (balance, smooth) = self.balance();
-        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).sqrt() * self.tolerance * self.tension_length(smooth.as_ref());
+        self.demands.error =
+            ERROR_SHARE * (self.tolerance / 1.0e-3).sqrt() * self.tolerance * self.tension_length(smooth.as_ref());
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
@@ -357,7 +358,8 @@ impl Simulation {
             jerk.set_sum(&state.a, -1.0, &moment.earlier);
             jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
         }
-        let rate = State { u: state.v.clone(), v: state.a.clone(), a: jerk, holds: tangent::hold_rate(self.line.as_ref(), state) };
+        let rate =
+            State { u: state.v.clone(), v: state.a.clone(), a: jerk, holds: tangent::hold_rate(self.line.as_ref(), state) };
         let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0e-4);
         let velocity = state.v.position(self.line.last());
         (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));

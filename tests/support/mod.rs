@@ -97,7 +97,11 @@ pub fn nothing() -> Surroundings {
 /// A flat bed at height `level`, of the same resistance everywhere, touched `onset` above its level.
 pub fn bed(mesh: &Mesh, level: f64, stiffness: f64, onset: f64) -> Ground {
     let resistance = Resistance { stiffness, damping: 0.0, onset, easing: onset.max(0.01) };
-    Ground { plane: Plane { normal: Vector3::z(), offset: level }, resistance: vec![resistance; mesh.elements.len()], friction: None }
+    Ground {
+        plane: Plane { normal: Vector3::z(), offset: level },
+        resistance: vec![resistance; mesh.elements.len()],
+        friction: None,
+    }
 }
 
 /// Supports, put together one by one.
