@@ -27,6 +27,8 @@ pub mod algebra {
     pub mod lanes;
     pub mod polynomial;
     pub mod shape;
+    pub mod sinusoid;
+    pub mod tensor;
 }
 
 /// What the user said: plain data, read and checked. No nodes, no steps.
@@ -40,10 +42,14 @@ pub mod scene {
 /// The discrete line: elements and the loads on them. No time steps, no files.
 pub mod rod {
     pub mod bending;
+    pub mod body;
     pub mod catenary;
+    pub mod elasticity;
     pub mod element;
+    pub mod element_tangent;
     pub mod friction;
     pub mod grading;
+    pub mod hold;
     pub mod joint;
     pub mod line;
     pub mod mesh;
@@ -58,7 +64,10 @@ pub mod rod {
 
 /// What the water does at a place.
 pub mod sea {
+    pub mod clock;
     pub mod current;
+    pub mod spectrum;
+    pub mod waves;
 }
 
 /// Statics and time.

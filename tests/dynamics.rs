@@ -379,7 +379,7 @@ fn energy(line: &dyn Line, state: &State) -> (f64, f64) {
         let (properties, ends) = (mesh.properties_of(e), Ends::<f64>::gather(&state.u, e, element.length));
         for (gauss, shape) in GAUSS3.iter().zip(&SHAPES3) {
             let strain = ends.combine(&shape.slope).length() / element.length - 1.0;
-            let height = ends.combine_z(&Shape::at(gauss.x).value);
+            let height = ends.combine(&Shape::at(gauss.x).value).z;
             potential +=
                 gauss.weight * element.length * (0.5 * properties.ea * strain.max(0.0).powi(2) + properties.weight * height);
         }

@@ -6,7 +6,7 @@ use moorline::scene::read::{self, Loaded};
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::{Outputs, Simulation};
 use std::f64::consts::TAU;
-use support::{GRAVITY, Hanging, Piece, assert_close, bisect};
+use support::{GRAVITY, Hanging, Piece, assert_close, bisect, weight};
 
 fn load(name: &str) -> Loaded {
     let path = format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -58,6 +58,51 @@ fn slack_catenary_hangs_as_irvine_says() {
     assert_close("tension at the fairlead", outputs.tension, exact.tension(&piece, 180.0), 1e-4);
     assert_close("tension at the anchor", outputs.anchor_tension, exact.tension(&piece, 0.0), 1e-4);
     assert_close("horizontal force", outputs.force.x, exact.horizontal, 3e-4);
+}
+
+/// Source: elastic catenaries above and below a jump of the vertical force, the weight of the body less its buoyancy. In motion the
+/// clump keeps the line alive: the tension stays between a half and twice that at rest.
+#[test]
+fn clump_weight_hangs_in_two_catenaries() {
+    let scene = load("clump-weight.json");
+    let per_length = 135.35 * GRAVITY - 1025.0 * GRAVITY * TAU / 8.0 * 0.076 * 0.076;
+    let chain = Piece { length: 150.0, weight: per_length, ea: 5.0e8 };
+    let pieces = [chain, weight((10000.0 - 1025.0 * 2.0) * GRAVITY), chain];
+    let exact = Hanging::spanning(&pieces, 250.0, 60.0);
+    let rows = history(&scene);
+    assert_close("tension at the fairlead", rows[0].tension, exact.tension(&pieces, 300.0), 3e-4);
+    assert_close("tension at the anchor", rows[0].anchor_tension, exact.tension(&pieces, 0.0), 3e-4);
+    assert_close("the title", rows[0].tension, 370.0e3, 5e-4);
+    assert!(rows.iter().all(|row| row.tension > 0.5 * rows[0].tension && row.tension < 2.0 * rows[0].tension));
+}
+
+/// Source: the same with a lift.
+#[test]
+fn lazy_wave_hangs_and_floats_in_two_catenaries() {
+    let scene = load("lazy-wave.json");
+    let per_length = 40.0 * GRAVITY - 1025.0 * GRAVITY * TAU / 8.0 * 0.2 * 0.2;
+    let hose = |length: f64| Piece { length, weight: per_length, ea: 2.0e7 };
+    let pieces = [hose(90.0), weight((300.0 - 1025.0 * 2.0) * GRAVITY), hose(130.0)];
+    let exact = Hanging::spanning(&pieces, 120.0, 110.0);
+    let outputs = history(&scene)[0];
+    assert_close("horizontal", outputs.force.x, exact.horizontal, 3e-3);
+    assert_close("tension at the fairlead", outputs.tension, exact.tension(&pieces, 220.0), 1e-3);
+    assert_close("tension at the anchor", outputs.anchor_tension, exact.tension(&pieces, 0.0), 1e-3);
+    assert_close("the title", outputs.force.x, 2.67e3, 3e-3);
+}
+
+/// Source: Archimedes on the wet part of a sphere, and Hooke.
+#[test]
+fn moored_buoy_floats_where_its_rope_lets_it() {
+    let rows = history(&load("moored-buoy.json"));
+    let (outputs, last) = (rows[0], rows[rows.len() - 1]);
+    let radius = (0.75 * 14.137 / std::f64::consts::PI).cbrt();
+    let h = outputs.fairlead.z / radius;
+    let pull = 1025.0 * GRAVITY * 14.137 * (1.0 - h) * (1.0 - h) * (2.0 + h) / 4.0 - 4000.0 * GRAVITY;
+    assert_close("tension below the buoy", outputs.tension, pull, 1e-5);
+    let wet = 10.0 * GRAVITY - 1025.0 * GRAVITY * TAU / 8.0 * 0.1 * 0.1;
+    assert_close("stretch", outputs.fairlead.z + 1.0, (pull - 0.5 * wet * 79.0) * 79.0 / 2.0e7, 1e-3);
+    assert_close("it stays", last.tension, outputs.tension, 1e-4);
 }
 
 /// Source: a line without weight across a current, drag on its normal velocity only: T is constant, and with φ the angle from the
@@ -116,6 +161,30 @@ fn snapping_chain_leaps_by_the_impedance() {
     assert_close("at the anchor", mean(0.7 + arrival, 0.5 + 3.0 * arrival, |row| row.anchor_tension), 2.0 * leap, 1e-2);
     let before = mean(0.0, 0.4 + arrival, |row| row.anchor_tension) / leap;
     assert!(before.abs() < 1e-2, "{before} of the leap at the anchor before the wave is there");
+}
+
+/// Source: Morison's equation with Froude & Krylov's force on a fixed cylinder along the crests, velocities and accelerations by linear
+/// theory, stretched after Wheeler; each end holds half. Largest and smallest of the last period; the wire itself gives way by
+/// a millimetre and adds 0.2 %.
+#[test]
+fn wire_under_waves_feels_morison() {
+    let rows = history(&load("wire-under-waves.json"));
+    let (depth, amplitude, omega, length, z) = (60.0, 3.0, TAU / 9.0, 19.9, -10.0);
+    let k = bisect(1e-3, 1.0, |k: f64| GRAVITY * k * (k * depth).tanh() - omega * omega);
+    let drag = 0.5 * 1025.0 * 0.4 * 1.0;
+    let mass = 1471.0 / GRAVITY + 1025.0 * TAU / 8.0 * 0.4 * 0.4 * 1.0;
+    let force = |time: f64| {
+        let (sin, cos) = (-omega * time).sin_cos();
+        let above_bed = k * (z + depth) * depth / (depth + amplitude * cos);
+        let speed = amplitude * omega / (k * depth).sinh();
+        let (x, z) = (speed * above_bed.cosh() * cos, speed * above_bed.sinh() * sin);
+        0.5 * length * (drag * x.hypot(z) * x + mass * omega * speed * above_bed.cosh() * sin)
+    };
+    let exact: Vec<f64> = (0..3600).map(|n| force(9.0 * f64::from(n) / 3600.0)).collect();
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::MIN, f64::max);
+    let last = || rows.iter().filter(|row| row.time >= 36.0).map(|row| row.force.x);
+    assert_close("with the waves", largest(&mut last()), largest(&mut exact.iter().copied()), 5e-3);
+    assert_close("against them", largest(&mut last().map(|x| -x)), largest(&mut exact.iter().map(|x| -x)), 5e-3);
 }
 
 /// Every scene of examples/ is tested here; the built-in case in tests/published.rs.

@@ -3,11 +3,11 @@
 //! Each test runs one script of `tests/fmu/`. They need Python 3.9 or newer; a virtual environment with pinned packages is set up once
 //! under `target/`.
 
+use moorline::algebra::sinusoid::Sinusoid;
 use moorline::fmi::pack::{Libraries, pack};
 use moorline::scene::types::{Motion, Scene};
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::Simulation;
-use std::f64::consts::TAU;
 use std::path::{Path as FilePath, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -78,8 +78,7 @@ fn standalone() -> Result<String, String> {
         return Err("the built-in motion is sinusoidal".into());
     };
     let origin = scene.lines[0].fairlead.into();
-    let path =
-        Path::Sinusoidal { origin, omega: TAU / period, sine: sine.into(), cosine: cosine.into(), ramp: ramp.unwrap_or(0.0) };
+    let path = Path::Sinusoidal { origin, offset: Sinusoid::new(period, sine, cosine, ramp) };
     let mut simulation = Simulation::new(&scene, 0).map_err(|error| error.to_string())?;
     simulation.settle(origin, 0.0).map_err(|error| error.to_string())?;
     let mut text = String::from("time,tension\n");
@@ -104,6 +103,9 @@ fn prepared() -> &'static Result<(PathBuf, PathBuf), String> {
         pack(&scene()?, "moorline", &Libraries::beside_program(), &fmu).map_err(|error| error.to_string())?;
         let other = folder.join("two-sections.fmu");
         pack(&two_sections()?, "two-sections", &Libraries::beside_program(), &other).map_err(|error| error.to_string())?;
+        let lines = serde_json::from_str(include_str!("../examples/two-lines.json")).map_err(|error| error.to_string())?;
+        pack(&lines, "two-lines", &Libraries::beside_program(), &folder.join("two-lines.fmu"))
+            .map_err(|error| error.to_string())?;
         Ok((python()?, fmu))
     })
 }
@@ -152,6 +154,16 @@ fn derivatives_agree_with_differences_taken_by_rollback() {
 #[test]
 fn a_scene_of_two_sections_has_its_own_names() {
     script("sections.py");
+}
+
+#[test]
+fn two_lines_in_one_fmu_are_what_each_is_alone() {
+    script("lines.py");
+}
+
+#[test]
+fn the_ssp_example_is_valid_and_runs() {
+    script("ssp.py");
 }
 
 #[test]

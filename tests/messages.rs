@@ -4,7 +4,7 @@
 
 use moorline::error::Error;
 use moorline::scene::read::{Loaded, built_in, load, parse, schema};
-use moorline::scene::types::{Motion, Scene, Scheme, Stretch, Surface};
+use moorline::scene::types::{Motion, Scene, Scheme, Stretch, Surface, Waves};
 use moorline::scene::{check, motion_file};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -78,9 +78,9 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     // Types.
     (r#""depth": 120.0"#, r#""depth": "120 m""#, &["line 6", "environment.depth", "\"120 m\"", "expected a number"]),
     (r#""depth": 120.0"#, r#""depth": null"#, &["environment.depth", "null", "expected a number"]),
-    (r#"[5.08, 2.1, 0.0]"#, r#"[5.08, 2.1]"#, &["line 25", "motion.sine", "list of 2", "three numbers [x, y, z]"]),
+    (r#"[5.08, 2.1, 0.0]"#, r#"[5.08, 2.1]"#, &["line 25", "motion.sine", "list of 2", "three values [x, y, z]"]),
     (r#"[5.08, 2.1, 0.0]"#, r#"[5.08, "up", 0.0]"#, &["motion.sine[1]", "\"up\"", "expected a number"]),
-    (r#"[1183.97, 0.0, -120.0]"#, r#"[1183.97, 0.0, -120.0, 0.0]"#, &["lines[0].anchor", "three numbers"]),
+    (r#"[1183.97, 0.0, -120.0]"#, r#"[1183.97, 0.0, -120.0, 0.0]"#, &["lines[0].anchor", "three values"]),
     (
         r#"{"stiffness": 5075.2591}"#,
         r#"[5075.2591]"#,
@@ -179,16 +179,40 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         r#""depth": 120.0, "current": [{"z": 0, "velocity": [1,0,0]}, {"z": -9, "velocity": [1,0,0]}, {"z": -5, "velocity": [0,0,0]}],"#,
         &["environment.current[2].z", "-5", "rise from row to row"],
     ),
-    // What is not there yet.
     (
         r#""depth": 120.0,"#,
-        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 9.0, "seed": 7},"#,
-        &["environment.waves", "does not support waves"],
+        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 9.0, "gamma": 0.5},"#,
+        &["environment.waves.gamma: 0.5 is not allowed", "between 1 and 20"],
     ),
     (
         r#""depth": 120.0,"#,
-        r#""depth": 120.0, "waves": {"kind": "components", "components": [{"amplitude": 1, "period": 9}]},"#,
-        &["does not support waves"],
+        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 0.0},"#,
+        &["environment.waves.tp: 0 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 9.0, "components": 0},"#,
+        &["environment.waves.components: 0 is not allowed", "1 to 5000"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "components", "components": []},"#,
+        &["environment.waves.components: 0 is not allowed", "1 to 5000"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "components", "components": [{"amplitude": 1, "period": 9}, {"amplitude": -1, "period": 9}]},"#,
+        &["environment.waves.components[1].amplitude: -1 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "regular", "amplitude": 2.0, "period": 10.0, "ramp": -1},"#,
+        &["environment.waves.ramp: -1 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "regular", "amplitude": 200, "period": 10.0},"#,
+        &["environment.waves.amplitude: 200 m is not allowed", "bare the seabed", "120 m"],
     ),
     (
         r#""depth": 120.0,"#,
@@ -196,25 +220,91 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         &["line 6", "environment.waves.amplitud", "did you mean `amplitude`"],
     ),
     (
-        r#""depth": 120.0,"#,
-        r#""depth": 120.0, "waves": {"kind": "regular", "amplitude": 2.0, "period": 10.0},"#,
-        &["environment.waves", "does not support waves"],
+        r#""damping": 4.0e-4"#,
+        r#""tension_strain": [[0, 0], [0.02, 1e6], [0.01, 2e6]]"#,
+        &["line_types.chain.tension_strain[2]", "[0.01, 2000000]", "must rise"],
     ),
     (
         r#""damping": 4.0e-4"#,
-        r#""tension_strain": [[0, 0], [0.02, 1e6]]"#,
-        &["line_types.chain.tension_strain", "does not support"],
-    ),
-    (
-        r#""damping": 4.0e-4"#,
-        r#""inner_fluid": {"density": 800, "area": 0.01}"#,
-        &["line_types.chain.inner_fluid", "does not support"],
+        r#""inner_fluid": {"density": -800, "area": 0.01}"#,
+        &["line_types.chain.inner_fluid.density", "-800", "must be 0 or greater"],
     ),
     (
         r#""name": "line","#,
-        r#""attachments": [{"s": 300, "mass": 100}],"#,
-        &["lines[0].attachments", "does not support clump weights"],
+        r#""attachments": [{"s": 1200.5}],"#,
+        &["lines[0].attachments[0].s", "1200.5", "between 0 (fairlead) and 1200 m (anchor)"],
     ),
+    (
+        r#""name": "line","#,
+        r#""attachments": [{"s": 5, "volume": -1}],"#,
+        &["lines[0].attachments[0].volume", "-1", "0 or greater"],
+    ),
+    (r#""name": "line","#, r#""constraints": [{"s": -1}],"#, &["lines[0].constraints[0].s", "-1", "between 0 (fairlead)"]),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "force": [0, 0, 1]}, {"s": 8.0}],"#,
+        &["lines[0].constraints[1].s", "8", "constraints[0] is there already"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "axes": [[1, 1, 0], [-2, -2, 0]]}],"#,
+        &["lines[0].constraints[0].axes", "[(1, 1, 0), (-2, -2, 0)]", "not parallel"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "stiffness": [0, -5, 0]}],"#,
+        &["lines[0].constraints[0].stiffness[1]", "-5", "0 or greater, N/m"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "motion": {"period": 0}}],"#,
+        &["lines[0].constraints[0].motion.period", "0", "greater than 0 s"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "locked": [true, false]}],"#,
+        &["lines[0].constraints[0].locked", "three"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""attachments": [{"s": 1200.5}],"#,
+        &["lines[0].attachments[0].s", "1200.5", "between 0 (fairlead) and 1200 m (anchor)"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""attachments": [{"s": 5, "volume": -1}],"#,
+        &["lines[0].attachments[0].volume", "-1", "0 or greater"],
+    ),
+    (r#""name": "line","#, r#""constraints": [{"s": -1}],"#, &["lines[0].constraints[0].s", "-1", "between 0 (fairlead)"]),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "force": [0, 0, 1]}, {"s": 8.0}],"#,
+        &["lines[0].constraints[1].s", "8", "constraints[0] is there already"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "axes": [[1, 1, 0], [-2, -2, 0]]}],"#,
+        &["lines[0].constraints[0].axes", "[(1, 1, 0), (-2, -2, 0)]", "not parallel"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "stiffness": [0, -5, 0]}],"#,
+        &["lines[0].constraints[0].stiffness[1]", "-5", "0 or greater, N/m"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "motion": {"period": 0}}],"#,
+        &["lines[0].constraints[0].motion.period", "0", "greater than 0 s"],
+    ),
+    (
+        r#""name": "line","#,
+        r#""constraints": [{"s": 8, "locked": [true, false]}],"#,
+        &["lines[0].constraints[0].locked", "three"],
+    ),
+    (r#""name": "line","#, r#""constraints": [{"s": 8, "mass": 3}],"#, &["lines[0].constraints", "does not support constraints"]),
+    (r#""mass": 135.35,"#, r#""mass": 135.35, "outer_area": -1,"#, &["line_types.chain.outer_area", "-1 is not allowed", "m²"]),
+    (r#""mass": 135.35,"#, r#""mass": 135.35, "seabed_stiffness": 0,"#, &["line_types.chain.seabed_stiffness", "Pa"]),
+    (r#""duration": 120.0"#, r#""duration": 120.0, "start": 1e16"#, &["run.start", "1e16"]),
     (r#""run": {"#, r#""solver": {"scheme": "cable-1994"}, "run": {"#, &["solver.scheme", "does not support", "adams-moulton"]),
     (r#""run": {"#, r#""solver": {"hydrostatic_strain": true}, "run": {"#, &["solver.hydrostatic_strain", "does not support"]),
 ];
@@ -363,6 +453,21 @@ fn a_motion_file_is_read_relative_to_the_scene_with_or_without_velocities() {
     assert_eq!(table.velocities, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
 }
 
+/// A body on a pinned end, and a motion of a fairlead that a constraint holds.
+#[test]
+fn what_acts_on_nothing_is_warned_of() {
+    let warnings = |line: &str| {
+        let text = edited(r#""name": "line","#, line);
+        read(&text, &[]).unwrap_or_else(|error| panic!("{error}")).warnings.join("; ")
+    };
+    let body = warnings(r#""attachments": [{"s": 1200, "mass": 5}],"#);
+    assert_says(&body, &["lines[0].attachments[0]", "pinned end"], "a body at the anchor");
+    let released = warnings(r#""constraints": [{"s": 0, "stiffness": [1e6, 1e6, 1e6]}],"#);
+    assert_says(&released, &["motion", "fairlead of lines[0]", "a motion of its own"], "a fairlead on springs");
+    let locked = warnings(r#""constraints": [{"s": 0, "locked": [true, true, true]}],"#);
+    assert_eq!(locked, "", "a fairlead locked without a motion of its own is a pinned one");
+}
+
 #[test]
 fn what_is_allowed_but_odd_is_warned_of() {
     let odd = read(
@@ -420,9 +525,21 @@ fn the_smallest_scene_takes_every_default() {
     assert_eq!((a.drag, a.added_mass), (Default::default(), Default::default()));
     assert_eq!((lines[0].name.as_str(), lines[1].name.as_str()), ("line1", "line2"));
     assert_eq!((lines[0].sections[0].elements, lines[0].attachments.len()), (None, 0));
+    assert!(lines[0].constraints.is_empty());
     assert_eq!((motion, run.duration, run.output_step), (Motion::Fixed, 120.0, 0.1));
     assert_eq!((solver.scheme, solver.tolerance, solver.max_step, solver.fixed_step), (Scheme::AdamsMoulton, 1e-3, 0.5, None));
     assert_eq!((solver.stretch, solver.hydrostatic_strain), (Stretch::Exact, false));
+}
+
+/// Source: Michell (1893): in deep water a wave breaks at 0.142 of its length, 22.2 m for 10 s.
+#[test]
+fn waves_that_would_break_are_warned_of() {
+    let warnings = |amplitude: f64| {
+        let waves = format!(r#""depth": 120.0, "waves": {{"kind": "regular", "amplitude": {amplitude}, "period": 10.0}},"#);
+        read(&edited(r#""depth": 120.0,"#, &waves), &[]).expect("a good scene").warnings
+    };
+    assert!(warnings(11.0).is_empty());
+    assert_says(&warnings(12.0).join(""), &["environment.waves", "24 m high", "10 s", "break at 22.1"], "12 m");
 }
 
 #[test]
@@ -430,6 +547,8 @@ fn a_scene_with_every_supported_key_is_read_and_survives_writing() {
     let loaded = load(&data().join("all-keys.json"), &[]).expect("all keys are good");
     let scene = &loaded.scene;
     assert_eq!((scene.environment.seabed.slope_deg, scene.environment.surface), ([1.0, -2.0], Surface::None));
+    let Some(Waves::Regular { amplitude, phase_deg, ramp, .. }) = &scene.environment.waves else { panic!("no waves") };
+    assert_eq!((*amplitude, *phase_deg, *ramp), (2.0, 90.0, Some(15.0)));
     assert_eq!((scene.environment.current[1].z, scene.line_types["rope"].buoyancy), (-120.0, Some(170.171)));
     assert_eq!((scene.lines[0].sections[0].elements, scene.lines[1].name.as_str()), (Some(10), "line2"));
     assert_eq!(

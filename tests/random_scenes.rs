@@ -65,6 +65,8 @@ fn line_type(random: &mut Random) -> LineType {
         tension_strain: None,
         breaking_load: None,
         inner_fluid: None,
+        outer_area: None,
+        seabed_stiffness: None,
     }
 }
 
@@ -101,6 +103,7 @@ fn scene(seed: u64) -> Scene {
             anchor: [span * cos, span * sin, -drop],
             sections: vec![Section { line_type: "rope".to_string(), length, elements: Some(random.between(5.0, 41.0) as usize) }],
             attachments: Vec::new(),
+            constraints: Vec::new(),
         }],
         motion: Motion::Sinusoidal {
             period: random.magnitude(4.0, 20.0),
@@ -108,7 +111,7 @@ fn scene(seed: u64) -> Scene {
             cosine: [0.0; 3],
             ramp: None,
         },
-        run: Run { duration: 2.0, output_step: random.magnitude(0.05, 0.5) },
+        run: Run { duration: 2.0, start: 0.0, output_step: random.magnitude(0.05, 0.5) },
         solver: Solver::default(),
     }
 }

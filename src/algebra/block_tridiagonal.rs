@@ -30,7 +30,9 @@ pub struct BlockTridiagonal<const B: usize> {
 #[derive(Debug, Clone)]
 pub struct Factor<const B: usize> {
     inverse: Vec<Columns<B>>,
+    /// -G_i.
     back: Vec<Columns<B>>,
+    /// -H_i.
     forward: Vec<Columns<B>>,
     processor: Arch,
 }
@@ -39,6 +41,17 @@ pub struct Factor<const B: usize> {
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 struct Columns<const B: usize>([[f64; MOST_LANES]; B]);
+
+/// For each row: zero there, one elsewhere.
+const OTHERS: [[f64; MOST_LANES]; MOST_LANES] = {
+    let mut others = [[1.0; MOST_LANES]; MOST_LANES];
+    let mut k = 0;
+    while k < MOST_LANES {
+        others[k][k] = 0.0;
+        k += 1;
+    }
+    others
+};
 
 impl<const B: usize> Columns<B> {
     fn of(block: &Block<B>) -> Self {
@@ -49,25 +62,86 @@ impl<const B: usize> Columns<B> {
         Columns(columns)
     }
 
-    fn block(&self) -> Block<B> {
-        Block::from_fn(|r, c| self.0[c][r])
-    }
-
-    /// sign·A x + term.
+    /// A x + term.
     #[inline(always)]
-    fn multiply_add<V: Simd>(&self, cpu: V, sign: f64, x: &[f64; MOST_LANES], term: &[f64; MOST_LANES]) -> [f64; MOST_LANES] {
+    fn multiply_add<V: Simd>(&self, cpu: V, x: &[f64; MOST_LANES], term: &[f64; MOST_LANES]) -> [f64; MOST_LANES] {
         let mut y = [0.0; MOST_LANES];
         let mut r = 0;
         while r < MOST_LANES {
             // Two chains of additions, each half as long.
             let mut sums = [Lanes::load(cpu, term, r), Lanes::splat(cpu, 0.0)];
             for c in 0..B {
-                sums[c % 2] = Lanes::load(cpu, &self.0[c], r).scale_add(sign * x[c], sums[c % 2]);
+                sums[c % 2] = Lanes::load(cpu, &self.0[c], r).scale_add(x[c], sums[c % 2]);
             }
             (sums[0] + sums[1]).store(&mut y, r);
             r += V::F64_LANES;
         }
         y
+    }
+
+    /// A B + term, A being self.
+    #[inline(always)]
+    fn product<V: Simd>(&self, cpu: V, b: &Self, term: &Self) -> Self {
+        let mut product = term.clone();
+        for c in 0..B {
+            product.0[c] = self.multiply_add(cpu, &b.0[c], &term.0[c]);
+        }
+        product
+    }
+
+    /// -A B, A being self.
+    #[inline(always)]
+    fn minus_product<V: Simd>(&self, cpu: V, b: &Self) -> Self {
+        let mut product = b.clone();
+        for c in 0..B {
+            let mut minus = b.0[c];
+            minus.iter_mut().for_each(|x| *x = -*x);
+            product.0[c] = self.multiply_add(cpu, &minus, &[0.0; MOST_LANES]);
+        }
+        product
+    }
+
+    /// Becomes the inverse, by Gauss–Jordan elimination in place with row pivoting; false if a pivot vanishes or is not finite.
+    #[inline(always)]
+    fn invert<V: Simd>(&mut self, cpu: V) -> bool {
+        let mut swapped = [0; B];
+        for k in 0..B {
+            let mut pivot = k;
+            for r in k + 1..B {
+                if self.0[k][r].abs() > self.0[k][pivot].abs() {
+                    pivot = r;
+                }
+            }
+            swapped[k] = pivot;
+            if pivot != k {
+                self.0.iter_mut().for_each(|column| column.swap(k, pivot));
+            }
+            let scale = 1.0 / self.0[k][k];
+            if !scale.is_finite() {
+                return false;
+            }
+            let mut factors = [-scale; B];
+            for c in 0..B {
+                if c != k {
+                    factors[c] *= self.0[c][k];
+                }
+            }
+            let pivots = std::mem::replace(&mut self.0[k], [0.0; MOST_LANES]);
+            let mut r = 0;
+            while r < MOST_LANES {
+                // Row k is replaced, the others are added to.
+                let others = Lanes::load(cpu, &OTHERS[k], r);
+                let pivots = Lanes::load(cpu, &pivots, r).mul_add(others, others + -1.0);
+                for (column, factor) in self.0.iter_mut().zip(factors) {
+                    pivots.scale_add(factor, Lanes::load(cpu, column, r) * others).store(column, r);
+                }
+                r += V::F64_LANES;
+            }
+        }
+        for k in (0..B).rev() {
+            self.0.swap(k, swapped[k]);
+        }
+        true
     }
 }
 
@@ -136,66 +210,7 @@ impl<const B: usize> Factor<B> {
 
     /// Factors a matrix. On an error the factor must not be used.
     pub fn factor(&mut self, a: &BlockTridiagonal<B>) -> Result<(), Singular> {
-        let n = a.diagonal.len();
-        let mut diagonal = a.diagonal[0];
-        for i in 0..n {
-            let fails = Singular { index: i };
-            if i + 1 == n {
-                self.inverse[i] = Columns::of(&inverse(&diagonal).ok_or(fails)?);
-            } else if a.tied[i] {
-                let mut next = a.diagonal[i + 1];
-                self.condense(i, &diagonal, &a.upper[i], &a.lower[i], &mut next).ok_or(fails)?;
-                diagonal = next;
-            } else {
-                let inverse = Columns::of(&inverse(&diagonal).ok_or(fails)?);
-                let (upper, lower) = (Columns::of(&a.upper[i]), Columns::of(&a.lower[i]));
-                let back = self.product(1.0, &inverse, &upper, None);
-                diagonal = self.product(-1.0, &lower, &back, Some(&Columns::of(&a.diagonal[i + 1]))).block();
-                self.forward[i] = self.product(1.0, &lower, &inverse, None);
-                (self.inverse[i], self.back[i]) = (inverse, back);
-            }
-        }
-        Ok(())
-    }
-
-    /// Eliminates the second half q of a tied block; its first half p is that of the next block.
-    /// Rows q: D_qp p + D_qq q + U_qq q' = b_q.
-    fn condense(&mut self, i: usize, d: &Block<B>, upper: &Block<B>, lower: &Block<B>, next: &mut Block<B>) -> Option<()> {
-        let h = B / 2;
-        let mut corner = Block::<B>::identity();
-        let mut row = Block::<B>::zeros();
-        let mut column = Block::<B>::zeros();
-        for r in 0..h {
-            for c in 0..h {
-                corner[(h + r, h + c)] = d[(h + r, h + c)];
-                row[(h + r, c)] = d[(h + r, c)];
-                row[(h + r, h + c)] = upper[(h + r, h + c)];
-                column[(r, h + c)] = d[(r, h + c)];
-                column[(h + r, h + c)] = lower[(h + r, h + c)];
-                next[(r, c)] += d[(r, c)];
-            }
-        }
-        let mut inverse = inverse(&corner)?;
-        for r in 0..h {
-            inverse[(r, r)] = 0.0;
-        }
-        let (mut back, mut forward) = (inverse * row, column * inverse);
-        *next -= column * back;
-        for r in 0..h {
-            back[(r, r)] = -1.0;
-            forward[(r, r)] = -1.0;
-        }
-        self.keep(i, &inverse, &back, &forward);
-        Some(())
-    }
-
-    /// sign·A B + term.
-    fn product(&self, sign: f64, a: &Columns<B>, b: &Columns<B>, term: Option<&Columns<B>>) -> Columns<B> {
-        self.processor.dispatch(Product { sign, a, b, term })
-    }
-
-    fn keep(&mut self, i: usize, inverse: &Block<B>, back: &Block<B>, forward: &Block<B>) {
-        (self.inverse[i], self.back[i], self.forward[i]) = (Columns::of(inverse), Columns::of(back), Columns::of(forward));
+        self.processor.dispatch(Elimination { factor: self, a })
     }
 
     /// Solves for one right-hand side in place, given component-major: entry c of block i stands at `b[c * stride + i]`.
@@ -205,24 +220,75 @@ impl<const B: usize> Factor<B> {
     }
 }
 
-struct Product<'a, const B: usize> {
-    sign: f64,
-    a: &'a Columns<B>,
-    b: &'a Columns<B>,
-    term: Option<&'a Columns<B>>,
+struct Elimination<'a, const B: usize> {
+    factor: &'a mut Factor<B>,
+    a: &'a BlockTridiagonal<B>,
 }
 
-impl<const B: usize> WithSimd for Product<'_, B> {
-    type Output = Columns<B>;
+impl<const B: usize> WithSimd for Elimination<'_, B> {
+    type Output = Result<(), Singular>;
 
     #[inline(always)]
-    fn with_simd<V: Simd>(self, cpu: V) -> Columns<B> {
-        let mut product = Columns([[0.0; MOST_LANES]; B]);
-        for c in 0..B {
-            let term = self.term.map_or([0.0; MOST_LANES], |term| term.0[c]);
-            product.0[c] = self.a.multiply_add(cpu, self.sign, &self.b.0[c], &term);
+    fn with_simd<V: Simd>(self, cpu: V) -> Result<(), Singular> {
+        let Elimination { factor: Factor { inverse, back, forward, .. }, a } = self;
+        let n = a.diagonal.len();
+        let mut diagonal = Columns::of(&a.diagonal[0]);
+        for i in 0..n {
+            let tied = i + 1 < n && a.tied[i];
+            let mut upper = Columns([[0.0; MOST_LANES]; B]);
+            let mut lower = upper.clone();
+            let mut next = upper.clone();
+            if i + 1 < n {
+                (upper, lower, next) = (Columns::of(&a.upper[i]), Columns::of(&a.lower[i]), Columns::of(&a.diagonal[i + 1]));
+            }
+            if tied {
+                condense(&mut diagonal, &mut upper, &mut lower, &mut next);
+            }
+            if !diagonal.invert(cpu) {
+                return Err(Singular { index: i });
+            }
+            if tied {
+                // The first half is solved for in the next block.
+                (0..B / 2).for_each(|r| diagonal.0[r][r] = 0.0);
+            }
+            if i + 1 < n {
+                back[i] = diagonal.minus_product(cpu, &upper);
+                forward[i] = lower.minus_product(cpu, &diagonal);
+                inverse[i] = diagonal;
+                diagonal = lower.product(cpu, &back[i], &next);
+            } else {
+                inverse[i] = diagonal.clone();
+            }
+            if tied {
+                for r in 0..B / 2 {
+                    back[i].0[r][r] = 1.0;
+                    forward[i].0[r][r] = 1.0;
+                }
+            }
         }
-        product
+        Ok(())
+    }
+}
+
+/// Prepares a tied block for elimination of its second half q; its first half p is that of the next block.
+/// Rows q: D_qp p + D_qq q + U_qq q' = b_q. The couplings with p and q' are then all with the next block.
+fn condense<const B: usize>(d: &mut Columns<B>, upper: &mut Columns<B>, lower: &mut Columns<B>, next: &mut Columns<B>) {
+    let h = B / 2;
+    let at = |m: &Columns<B>, r: usize, c: usize| m.0[c][r];
+    let (from, up, low) = (d.clone(), upper.clone(), lower.clone());
+    for m in [&mut *d, &mut *upper, &mut *lower] {
+        *m = Columns([[0.0; MOST_LANES]; B]);
+    }
+    for r in 0..h {
+        d.0[r][r] = 1.0;
+        for c in 0..h {
+            d.0[h + c][h + r] = at(&from, h + r, h + c);
+            upper.0[c][h + r] = at(&from, h + r, c);
+            upper.0[h + c][h + r] = at(&up, h + r, h + c);
+            lower.0[h + c][r] = at(&from, r, h + c);
+            lower.0[h + c][h + r] = at(&low, h + r, h + c);
+            next.0[c][r] += at(&from, r, c);
+        }
     }
 }
 
@@ -242,14 +308,14 @@ impl<const B: usize> WithSimd for Solution<'_, B> {
         let none = [0.0; MOST_LANES];
         let mut y = gather::<B>(b, stride, 0);
         for i in 1..n {
-            y = factor.forward[i - 1].multiply_add(cpu, -1.0, &y, &gather::<B>(b, stride, i));
+            y = factor.forward[i - 1].multiply_add(cpu, &y, &gather::<B>(b, stride, i));
             scatter::<B>(b, stride, i, &y);
         }
-        let mut x = factor.inverse[n - 1].multiply_add(cpu, 1.0, &y, &none);
+        let mut x = factor.inverse[n - 1].multiply_add(cpu, &y, &none);
         scatter::<B>(b, stride, n - 1, &x);
         for i in (0..n - 1).rev() {
-            let own = factor.inverse[i].multiply_add(cpu, 1.0, &gather::<B>(b, stride, i), &none);
-            x = factor.back[i].multiply_add(cpu, -1.0, &x, &own);
+            let own = factor.inverse[i].multiply_add(cpu, &gather::<B>(b, stride, i), &none);
+            x = factor.back[i].multiply_add(cpu, &x, &own);
             scatter::<B>(b, stride, i, &x);
         }
     }
@@ -269,42 +335,6 @@ fn scatter<const B: usize>(b: &mut [f64], stride: usize, i: usize, x: &[f64; MOS
     for c in 0..B {
         b[c * stride + i] = x[c];
     }
-}
-
-/// Inverse by Gauss–Jordan elimination with row pivoting; none if a pivot vanishes or is not finite.
-fn inverse<const B: usize>(matrix: &Block<B>) -> Option<Block<B>> {
-    let mut a = *matrix;
-    let mut inverse = Block::<B>::identity();
-    for k in 0..B {
-        let mut pivot = k;
-        for r in k + 1..B {
-            if a[(r, k)].abs() > a[(pivot, k)].abs() {
-                pivot = r;
-            }
-        }
-        if pivot != k {
-            a.swap_rows(k, pivot);
-            inverse.swap_rows(k, pivot);
-        }
-        let scale = 1.0 / a[(k, k)];
-        if !scale.is_finite() {
-            return None;
-        }
-        for c in 0..B {
-            a[(k, c)] *= scale;
-            inverse[(k, c)] *= scale;
-        }
-        for r in 0..B {
-            let factor = a[(r, k)];
-            if r != k && factor != 0.0 {
-                for c in 0..B {
-                    a[(r, c)] -= factor * a[(k, c)];
-                    inverse[(r, c)] -= factor * inverse[(k, c)];
-                }
-            }
-        }
-    }
-    Some(inverse)
 }
 
 #[cfg(test)]

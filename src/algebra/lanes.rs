@@ -51,8 +51,39 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// 1 where self ≥ 0, else 0.
     fn step(self) -> Self;
+    /// 1 where self > 0, else 0.
+    #[inline(always)]
+    fn positive(self) -> Self {
+        -(-self).step() + 1.0
+    }
     /// Whether any lane is greater than zero.
     fn any_positive(self) -> bool;
+
+    /// The number in the first lane.
+    #[inline(always)]
+    fn first(self) -> f64 {
+        self.lanes()[0]
+    }
+
+    /// The largest number in any lane.
+    #[inline(always)]
+    fn highest(self) -> f64 {
+        self.lanes()[..Self::LANES].iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The sum of all lanes.
+    #[inline(always)]
+    fn total(self) -> f64 {
+        self.lanes().iter().sum()
+    }
+
+    /// The numbers in order; zeros beyond the last lane.
+    #[inline(always)]
+    fn lanes(self) -> [f64; MOST_LANES] {
+        let mut lanes = [0.0; MOST_LANES];
+        self.store(&mut lanes, 0);
+        lanes
+    }
 
     /// Adds to consecutive numbers from place `at` of a slice.
     #[inline(always)]
@@ -233,6 +264,12 @@ impl<F: Real> Triple<F> {
     #[inline(always)]
     pub fn splat(cpu: F::Cpu, v: &Vector3<f64>) -> Self {
         Triple { x: F::splat(cpu, v.x), y: F::splat(cpu, v.y), z: F::splat(cpu, v.z) }
+    }
+
+    /// Consecutive vectors from place `at` of three rows.
+    #[inline(always)]
+    pub fn load(cpu: F::Cpu, [x, y, z]: [&[f64]; 3], at: usize) -> Self {
+        Triple { x: F::load(cpu, x, at), y: F::load(cpu, y, at), z: F::load(cpu, z, at) }
     }
 
     /// Zero.

@@ -52,6 +52,12 @@ impl Cubic {
         Cubic([y0, y0 + d0 / 3.0, y1 - d1 / 3.0, y1])
     }
 
+    /// The cubic with given values at x = 0, ⅓, ⅔, 1.
+    pub fn through(y: [f64; 4]) -> Cubic {
+        let control = |near: f64, next: f64, far: f64, end: f64| (18.0 * next - 5.0 * near - 9.0 * far + 2.0 * end) / 6.0;
+        Cubic([y[0], control(y[0], y[1], y[2], y[3]), control(y[3], y[2], y[1], y[0]), y[3]])
+    }
+
     /// Value at x (de Casteljau, stable).
     pub fn at(&self, x: f64) -> f64 {
         let b = &self.0;
@@ -78,6 +84,11 @@ impl Cubic {
             return Intervals::whole();
         }
         let mut parts = Intervals::default();
+        if let Some(cut) = self.only_crossing(level) {
+            let (from, to) = if self.0[0] >= level { (0.0, cut) } else { (cut, 1.0) };
+            parts.push(from, to);
+            return parts;
+        }
         let mut cuts = [0.0; 5];
         let count = 1 + self.crossings(level, &mut cuts[1..]);
         cuts[count] = 1.0;
@@ -97,6 +108,14 @@ impl Cubic {
             parts.push(start, 1.0);
         }
         parts
+    }
+
+    /// The crossing of `level`, where the signs of the control values tell that there is just one (Descartes).
+    fn only_crossing(&self, level: f64) -> Option<f64> {
+        let b = self.0.map(|value| value - level);
+        let changes = (0..3).filter(|k| (b[*k] < 0.0) != (b[*k + 1] < 0.0)).count();
+        let d = [3.0 * (b[1] - b[0]), 3.0 * (b[2] - b[1]), 3.0 * (b[3] - b[2])];
+        (changes == 1).then(|| Cubic(b).bracketed_root(0.0, 1.0, b[0] < 0.0, d))
     }
 
     /// Crossings of `level` in (0, 1) in rising order, at most 3; returns how many. Between neighbouring extrema the cubic is
@@ -125,7 +144,9 @@ impl Cubic {
     }
 
     fn bracketed_root(&self, mut x0: f64, mut x1: f64, rising: bool, d: [f64; 3]) -> f64 {
-        let mut x = 0.5 * (x0 + x1);
+        let (f0, f1) = (self.at(x0), self.at(x1));
+        let secant = x0 - f0 * (x1 - x0) / (f1 - f0);
+        let mut x = if secant > x0 && secant < x1 { secant } else { 0.5 * (x0 + x1) };
         for _ in 0..60 {
             let f = self.at(x);
             if (f < 0.0) == rising {
@@ -136,7 +157,12 @@ impl Cubic {
             let y = 1.0 - x;
             let slope = y * y * d[0] + 2.0 * y * x * d[1] + x * x * d[2];
             let newton = x - f / slope;
-            let next = if newton > x0 && newton < x1 { newton } else { 0.5 * (x0 + x1) };
+            let inside = newton > x0 && newton < x1;
+            // Newton's error is squared with every step.
+            if inside && (newton - x).abs() < 1e-8 {
+                return newton;
+            }
+            let next = if inside { newton } else { 0.5 * (x0 + x1) };
             if (next - x).abs() < 1e-15 {
                 return next;
             }
@@ -178,6 +204,14 @@ mod tests {
         for (found, exact) in [(parts[0].from, 0.2), (parts[0].to, 0.5), (parts[1].from, 0.9), (parts[1].to, 1.0)] {
             assert!((found - exact).abs() < 1e-13, "{found} {exact}");
         }
+    }
+
+    /// A cubic is known by its values at four places, to rounding.
+    #[test]
+    fn a_cubic_through_its_values_is_the_cubic() {
+        let cubic = Cubic([1.0, -2.0, 0.5, 3.0]);
+        let again = Cubic::through([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|x| cubic.at(x)));
+        (0..4).for_each(|k| assert!((again.0[k] - cubic.0[k]).abs() < 1e-14, "{again:?}"));
     }
 
     /// A parabola that only just dips below zero between its ends is found although both ends are above.

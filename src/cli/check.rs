@@ -81,7 +81,7 @@ fn cost(scene: &Scene, elements: usize) -> String {
     format!(
         "\nCost: {} rows to t = {} s, some {steps:.0} steps of {}; about {} of solver time, more where the line snaps.\n",
         schedule.rows(),
-        sim_time(scene.run.duration),
+        sim_time(scene.run.end()),
         count(elements, "element"),
         wall_time(seconds),
     )

@@ -7,18 +7,18 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// A progress bar over the rows of a run; it goes away when dropped.
 pub struct Progress {
     bar: ProgressBar,
-    duration: String,
+    end: String,
 }
 
 impl Progress {
-    /// A bar for `rows` rows over `duration` simulated seconds; none is drawn where `quiet`.
-    pub fn new(rows: usize, duration: f64, quiet: bool) -> Progress {
+    /// A bar for `rows` rows to the simulated time `end`; none is drawn where `quiet`.
+    pub fn new(rows: usize, end: f64, quiet: bool) -> Progress {
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(rows.saturating_sub(1) as u64), target);
         if let Ok(style) = ProgressStyle::with_template("  {bar:36.cyan/dim} {msg}, {eta} left") {
             bar.set_style(style.progress_chars("━╸─"));
         }
-        Progress { bar, duration: sim_time(duration) }
+        Progress { bar, end: sim_time(end) }
     }
 
     /// Shows that a row is written: its time [s] and the largest of the lines' tensions.
@@ -28,7 +28,7 @@ impl Progress {
         }
         let tension = lines.iter().map(|line| line.tension).fold(0.0, f64::max);
         let unit = ForceUnit::for_largest(tension);
-        self.bar.set_message(format!("{} of {} s, tension {}", sim_time(time), self.duration, unit.show(tension)));
+        self.bar.set_message(format!("{} of {} s, tension {}", sim_time(time), self.end, unit.show(tension)));
         self.bar.set_position(row as u64);
     }
 }

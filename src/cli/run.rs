@@ -74,10 +74,10 @@ fn drive(
     let interrupt = Interrupt::watch();
     lines.settle(record)?;
     let mut nodes = lines.nodes();
-    tables.row(record, 0.0, &lines.outputs(), &nodes)?;
-    tables.snapshot(record, 0.0, &nodes)?;
+    tables.row(record, schedule.time(0), &lines.outputs(), &nodes)?;
+    tables.snapshot(record, schedule.time(0), &nodes)?;
 
-    let progress = Progress::new(schedule.rows(), record.scene.run.duration, quiet);
+    let progress = Progress::new(schedule.rows(), record.scene.run.end(), quiet);
     let mut outcome = Ok(());
     for row in 1..schedule.rows() {
         let time = schedule.time(row);
@@ -113,9 +113,10 @@ impl MovingLines {
 
     /// Finds the equilibrium of all lines. Of a line that has none, the best state found is recorded.
     fn settle(&mut self, record: &mut Record) -> Result<(), Error> {
+        let begin = record.scene.run.start;
         for ((simulation, path), line) in self.lines.iter_mut().zip(&mut record.lines) {
             let started = Instant::now();
-            let report = simulation.settle(path.at(0.0).position, 0.0);
+            let report = simulation.settle(path.at(begin).position, begin);
             record.statics_seconds += started.elapsed().as_secs_f64();
             line.equilibrium = simulation.nodes();
             line.statics = Some(report?);
@@ -192,9 +193,11 @@ struct Tables {
 impl Tables {
     fn create(files: &Files, record: &Record) -> Result<Tables, Error> {
         let names: Vec<&str> = record.lines.iter().map(|line| line.name.as_str()).collect();
+        let scene = &record.scene;
+        let walls = scene.solver.hydrostatic_strain || scene.line_types.values().any(|line_type| line_type.inner_fluid.is_some());
         Ok(Tables {
             time_series: TimeSeries::new(tables::create(&files.time_series)?, &files.time_series, &names)?,
-            nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes)?,
+            nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes, walls)?,
         })
     }
 

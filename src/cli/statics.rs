@@ -40,6 +40,8 @@ struct Node {
     position: Triple,
     tangent: Triple,
     tension: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall_tension: Option<f64>,
 }
 
 /// Solves all lines and prints them, the best state found where one does not converge; then that is the error.
@@ -63,8 +65,9 @@ fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
     let mut failure = None;
     for (index, line) in loaded.scene.lines.iter().enumerate() {
         let mut simulation = Simulation::new(&loaded.scene, index)?;
-        let fairlead = Path::of_scene(loaded, index).at(0.0).position;
-        let (converged, iterations, residual) = match simulation.settle(fairlead, 0.0) {
+        let start = loaded.scene.run.start;
+        let fairlead = Path::of_scene(loaded, index).at(start).position;
+        let (converged, iterations, residual) = match simulation.settle(fairlead, start) {
             Ok(report) => (report.converged, report.iterations, report.residual),
             Err(error) => {
                 let Error::Statics(state) = &error else { return Err(error) };
@@ -87,6 +90,7 @@ fn line_equilibrium(name: &str, converged: bool, outputs: &Outputs, nodes: &[Nod
         position: node.position.into(),
         tangent: node.tangent.into(),
         tension: node.tension,
+        wall_tension: node.wall_tension,
     };
     LineEquilibrium {
         name: name.to_string(),
@@ -134,11 +138,17 @@ fn line_table(text: &mut String, line: &LineEquilibrium, touchdown: Option<f64>)
         None => writeln!(text, "  {:.3} m on the bed", line.grounded_length),
     };
     let force_heading = format!("tension [{}]", unit.symbol);
-    let _ = writeln!(text, "\n  {:>5}{:>13}{:>13}{:>13}{:>13}{force_heading:>17}", "node", "s [m]", "x [m]", "y [m]", "z [m]");
+    let wall_heading = if line.nodes.iter().any(|node| node.wall_tension.is_some()) { "of the wall" } else { "" };
+    let _ = writeln!(
+        text,
+        "\n  {:>5}{:>13}{:>13}{:>13}{:>13}{force_heading:>17}{wall_heading:>17}",
+        "node", "s [m]", "x [m]", "y [m]", "z [m]"
+    );
     for (index, node) in line.nodes.iter().enumerate() {
         let [x, y, z] = node.position;
         let tension = unit.number(node.tension);
-        let _ = writeln!(text, "  {index:>5}{:>13.3}{x:>13.3}{y:>13.3}{z:>13.3}{tension:>17}", node.s);
+        let wall = node.wall_tension.map_or(String::new(), |tension| format!("{:>17}", unit.number(tension)));
+        let _ = writeln!(text, "  {index:>5}{:>13.3}{x:>13.3}{y:>13.3}{z:>13.3}{tension:>17}{wall}", node.s);
     }
     let _ = writeln!(text);
 }

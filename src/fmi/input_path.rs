@@ -26,6 +26,8 @@ const VELOCITY_NODES: usize = 5;
 const POSITION_NODES: usize = 6;
 /// Past values by which an order is judged: how well those before foretold them.
 const FORETOLD: usize = 3;
+/// The share with which a miss of the present counts: a kink of the motion is forgotten sooner, jitter is judged by the past.
+const PRESENT_VOICE: f64 = 0.5;
 /// Past values that this takes.
 const SPACED_NODES: usize = POSITION_NODES + FORETOLD;
 /// Largest error of foretelling the present, as a part of all that changed over the nodes, that counts as smooth.
@@ -99,8 +101,25 @@ pub struct Plan {
     step: f64,
     interpolation: Interpolation,
     position_only: bool,
-    /// Indices of the samples that the polynomial goes through, newest first.
-    nodes: Vec<usize>,
+    nodes: Nodes,
+}
+
+/// Indices of the samples that a polynomial goes through, newest first.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Nodes {
+    indices: [usize; SPACED_NODES],
+    count: usize,
+}
+
+impl Nodes {
+    fn push(&mut self, index: usize) {
+        self.indices[self.count] = index;
+        self.count += 1;
+    }
+
+    fn as_slice(&self) -> &[usize] {
+        &self.indices[..self.count]
+    }
 }
 
 /// The path of one step: a polynomial in τ = time - start, by power and axis.
@@ -115,6 +134,17 @@ impl Segment {
     pub fn path(&self) -> Path {
         let coefficients = self.coefficients.iter().map(|term| Vector3::from(*term)).collect();
         Path::Polynomial { start: self.start, coefficients }
+    }
+
+    /// As a path for the solver, in the place of the last one.
+    pub fn write_to(&self, path: &mut Path) {
+        match path {
+            Path::Polynomial { start, coefficients } if coefficients.len() == TERMS => {
+                *start = self.start;
+                coefficients.iter_mut().zip(self.coefficients).for_each(|(to, term)| *to = term.into());
+            }
+            _ => *path = self.path(),
+        }
     }
 
     /// Position [m] and velocity [m/s] at a time.
@@ -137,15 +167,23 @@ impl InputPath {
         InputPath { samples: Vec::with_capacity(CAPACITY), position, velocity: [0.0; 3], velocity_given: false }
     }
 
+    /// Becomes another path's memory; in the long run it allocates nothing.
+    pub fn copy_from(&mut self, other: &InputPath) {
+        let InputPath { samples, position, velocity, velocity_given } = other;
+        self.samples.clone_from(samples);
+        (self.position, self.velocity, self.velocity_given) = (*position, *velocity, *velocity_given);
+    }
+
     /// Decides how to go from `time` over `step` [s]: from which past values, by which order.
     pub fn plan(&self, interpolation: Interpolation, time: f64, step: f64, inputs: &Inputs) -> Plan {
         let given = self.velocity_given || inputs.gives_velocity();
         let position_only = interpolation != Interpolation::Extrapolate && !given && self.moved(inputs);
-        let mut plan = Plan { time, step, interpolation, position_only, nodes: Vec::new() };
+        let mut plan = Plan { time, step, interpolation, position_only, nodes: Nodes::default() };
         let derivative_needed = interpolation == Interpolation::Delay && position_only;
         let extrapolates = matches!(interpolation, Interpolation::Auto | Interpolation::Extrapolate);
         if (extrapolates || derivative_needed) && !self.outdated_by(inputs) {
-            plan.nodes = self.smooth_nodes(self.spaced_nodes(time, step), &inputs.sample(time), position_only);
+            plan.nodes = self.spaced_nodes(time, step);
+            plan.nodes.count = self.smooth(plan.nodes.as_slice(), &inputs.sample(time), position_only);
         }
         plan
     }
@@ -164,12 +202,12 @@ impl InputPath {
     }
 
     /// Samples far enough apart to extrapolate over `step`, newest first: a polynomial through close values says nothing far away.
-    fn spaced_nodes(&self, time: f64, step: f64) -> Vec<usize> {
+    fn spaced_nodes(&self, time: f64, step: f64) -> Nodes {
         let gap = (0.5 * step).max(0.5 * SHORTEST_SPACING) * (1.0 - 1e-6);
         let mut last = time;
-        let mut nodes = Vec::with_capacity(SPACED_NODES);
+        let mut nodes = Nodes::default();
         for (index, sample) in self.samples.iter().enumerate().rev() {
-            if nodes.len() < SPACED_NODES && last - sample.time >= gap {
+            if nodes.count < SPACED_NODES && last - sample.time >= gap {
                 last = sample.time;
                 nodes.push(index);
             }
@@ -177,20 +215,20 @@ impl InputPath {
         nodes
     }
 
-    /// The run of nodes that extrapolates best: of the polynomials through m values the one that came closest to foretelling the last three
-    /// past values from those before, as long as it did not miss the present by far; then m - 1 past values and the present one foretell
-    /// the future. Not simply the longest run: a polynomial through five values makes a jitter 31 times larger, and a vessel that answers
-    /// to the line's force sends it back. The present value does not choose, so that the path is linear in it.
+    /// How many of the nodes extrapolate best: of the polynomials through m values the one that came closest to foretelling the present and
+    /// the last three past values from those before, as long as it did not miss the present by far; then m - 1 past values and the present
+    /// one foretell the future. Not simply all of them: a polynomial through five values makes a jitter 31 times larger, and a vessel that
+    /// answers to the line's force sends it back.
     ///
     /// What the polynomial through values 1 … m misses of value 0 is f[t₀, …, tₘ]·Π(t₀ - tⱼ), with the divided difference f[…].
-    fn smooth_nodes(&self, mut nodes: Vec<usize>, now: &Sample, position_only: bool) -> Vec<usize> {
+    fn smooth(&self, nodes: &[usize], now: &Sample, position_only: bool) -> usize {
         let most = if position_only { POSITION_NODES } else { VELOCITY_NODES };
         let value = |sample: &Sample| Vector3::from(if position_only { sample.position } else { sample.velocity });
         let mut times = [0.0; SPACED_NODES + 1];
         let mut differences = [value(now); SPACED_NODES + 1];
-        for (number, &index) in nodes.iter().enumerate() {
-            times[number + 1] = self.samples[index].time - now.time;
-            differences[number + 1] = value(&self.samples[index]);
+        for (number, &index) in (1..).zip(nodes) {
+            times[number] = self.samples[index].time - now.time;
+            differences[number] = value(&self.samples[index]);
         }
         let count = nodes.len() + 1;
         let values = differences;
@@ -205,14 +243,16 @@ impl InputPath {
                 differences[first].norm() * distances.product::<f64>()
             };
             changed += (values[order - 1] - values[order]).norm();
-            let worst = (1..=FORETOLD).take_while(|first| first + order < count).map(missed).reduce(f64::max);
-            let Some(worst) = worst else { break };
+            if 1 + order >= count {
+                break;
+            }
+            let past = (1..=FORETOLD).take_while(|first| first + order < count).map(missed);
+            let worst = past.fold(PRESENT_VOICE * missed(0), f64::max);
             if worst < least && (order == 1 || missed(0) <= SMOOTH * changed) {
                 (best, least) = (order - 1, worst);
             }
         }
-        nodes.truncate(best);
-        nodes
+        best
     }
 
     /// The path that a plan makes of the inputs.
@@ -271,11 +311,11 @@ fn build(plan: &Plan, inputs: &Inputs, samples: &[Sample], ended: ([f64; 3], [f6
 fn extrapolation(plan: &Plan, inputs: &Inputs, samples: &[Sample], axis: usize) -> [f64; TERMS] {
     let position = inputs.values[0][axis];
     if plan.position_only {
-        let past = plan.nodes.iter().map(|&index| (samples[index].time - plan.time, samples[index].position[axis]));
+        let past = plan.nodes.as_slice().iter().map(|&index| (samples[index].time - plan.time, samples[index].position[axis]));
         return through_present(&[position], past);
     }
     let (terms, known) = inputs.velocity_terms(axis);
-    let past = plan.nodes.iter().map(|&index| (samples[index].time - plan.time, samples[index].velocity[axis]));
+    let past = plan.nodes.as_slice().iter().map(|&index| (samples[index].time - plan.time, samples[index].velocity[axis]));
     let velocity = through_present(&terms[..known], past.take(VELOCITY_NODES - known));
     let mut integral = [position, 0.0, 0.0, 0.0, 0.0, 0.0];
     for power in 1..TERMS {
@@ -434,14 +474,14 @@ mod tests {
 
     #[test]
     fn follows_a_sinusoid_in_random_steps() {
-        for sends in [Sends::Velocities, Sends::Positions] {
+        for (sends, allowed) in [(Sends::Velocities, 4e-3), (Sends::Positions, 0.01)] {
             let mut worst = 0.0_f64;
             drive(Interpolation::Auto, &surge, sends, random_steps(300), |time, segment| {
                 if time > 15.0 {
                     worst = worst.max((segment.at(time).1[0] - surge(time)[1]).abs());
                 }
             });
-            assert!(worst < 0.02, "velocity off by {worst} m/s");
+            assert!(worst < allowed, "velocity off by {worst} m/s");
         }
     }
 
@@ -557,7 +597,7 @@ mod tests {
         assert!(!path.plan(Interpolation::Extrapolate, 10.0, 0.1, &silent).position_only);
         let speaking = inputs(&surge, 10.0, Sends::Velocities);
         let plan = path.plan(Interpolation::Auto, 10.0, 0.1, &speaking);
-        assert!(!plan.position_only && plan.nodes.is_empty(), "velocities that were never sent are extrapolated from: {plan:?}");
+        assert!(!plan.position_only && plan.nodes.count == 0, "velocities that were never sent are extrapolated from: {plan:?}");
         let segment = path.segment(&plan, &speaking);
         path.advance(&plan, &speaking, &segment, 10.1);
         assert!(path.velocity_given && path.samples.len() == 1);

@@ -6,12 +6,13 @@ use crate::error::Error;
 use crate::fmi::input_path::{InputPath, Inputs, Plan, Segment};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource;
-use crate::fmi::snapshot::{Moment, State};
+use crate::fmi::snapshot::{End, Moment, State};
 use crate::fmi::variables::{DEFAULT_STEP, Interface, Interpolation, Kind, LOG_CATEGORIES, Meaning, Variable};
 use crate::scene::check;
 use crate::scene::types::{Motion, Scene};
-use crate::solve::simulation::{LastStep, Outputs, Simulation};
-use nalgebra::Vector3;
+use crate::solve::motion::Path;
+use crate::solve::simulation::{LastStep, Linearised, Outputs, Simulation};
+use crate::solve::snapshot::Snapshot;
 use std::collections::BTreeMap;
 
 /// Longest communication step [s]; more is a mistake of units or an uninitialised number.
@@ -146,21 +147,45 @@ pub struct Message {
     pub text: String,
 }
 
-/// A line and what it was made from.
-struct BuiltLine {
-    simulation: Simulation,
+/// The lines and what they were made from.
+struct Built {
+    lines: Vec<BuiltLine>,
     parameters: Vec<f64>,
-    origin: [f64; 3],
     tolerance: Option<f64>,
     interpolation: Interpolation,
 }
 
-/// One mooring line in the hands of a master.
+/// One line, how it goes to the next communication point, and the last step that was differentiated.
+struct BuiltLine {
+    simulation: Simulation,
+    origin: [f64; 3],
+    route: Option<Route>,
+    path: Path,
+    linearised: Option<(f64, Segment, Linearised)>,
+}
+
+/// How a fairlead goes to the next communication point.
+#[derive(Clone)]
+struct Route {
+    plan: Plan,
+    segment: Segment,
+}
+
+impl BuiltLine {
+    /// Advances along the route.
+    fn advance(&mut self, until: f64) -> Result<(), Error> {
+        let Some(route) = &self.route else { return Ok(()) };
+        route.segment.write_to(&mut self.path);
+        self.simulation.advance(until, &self.path)
+    }
+}
+
+/// One or several mooring lines in the hands of a master.
 pub struct Instance {
     interface: Interface,
     fingerprint: u128,
     moment: Moment,
-    line: Option<BuiltLine>,
+    built: Option<Built>,
     /// States handed out, by their address, which serves as handle and is never dereferenced.
     states: BTreeMap<usize, Box<State>>,
     logged: Vec<&'static str>,
@@ -178,13 +203,13 @@ impl Instance {
         Ok(Instance::of_scene(&scene, logging))
     }
 
-    /// An instance for a scene with one line.
+    /// An instance for a scene.
     pub fn of_scene(scene: &Scene, logging: bool) -> Instance {
         let interface = Interface::new(scene);
         let moment = first_moment(&interface);
         let fingerprint = resource::fingerprint(resource::guid(scene).as_bytes());
         let logged = if logging { LOG_CATEGORIES.to_vec() } else { Vec::new() };
-        Instance { interface, fingerprint, moment, line: None, states: BTreeMap::new(), logged, messages: Vec::new() }
+        Instance { interface, fingerprint, moment, built: None, states: BTreeMap::new(), logged, messages: Vec::new() }
     }
 
     /// What there is to tell since the last call of this function.
@@ -196,7 +221,7 @@ impl Instance {
     pub fn fail(&mut self) {
         self.moment.phase = Phase::Error;
         self.moment.step_status = StepStatus::Failed;
-        self.line = None;
+        self.built = None;
     }
 
     fn event(&mut self, text: String) {
@@ -280,7 +305,7 @@ impl Instance {
     /// Back to the state after instantiation; a rerun is the same bit for bit.
     pub fn reset(&mut self) {
         self.moment = first_moment(&self.interface);
-        self.line = None;
+        self.built = None;
     }
 
     fn variable(&self, reference: u32, kind: Kind) -> Result<&Variable, Refusal> {
@@ -310,13 +335,14 @@ impl Instance {
         }
         for (reference, value) in references.iter().zip(values) {
             let variable = self.variable(*reference, kind)?;
+            let end = &self.moment.ends[variable.line];
             *value = match variable.meaning {
                 Meaning::Input(input) => {
                     let (order, axis) = input.component();
-                    self.moment.inputs.values[order][axis]
+                    end.inputs.values[order][axis]
                 }
-                Meaning::Output(output) => output.of(&self.moment.outputs),
-                Meaning::Local(local) => local.of(&self.moment.last),
+                Meaning::Output(output) => output.of(&end.outputs),
+                Meaning::Local(local) => local.of(&end.last),
                 Meaning::Parameter(_) | Meaning::Place(_) => self.moment.parameters[variable.slot],
             };
         }
@@ -330,11 +356,11 @@ impl Instance {
             self.may_set(self.variable(*reference, kind)?, *value)?;
         }
         for (reference, value) in references.iter().zip(values) {
-            let Variable { meaning, slot, .. } = *self.variable(*reference, kind)?;
+            let Variable { meaning, slot, line, .. } = *self.variable(*reference, kind)?;
             match meaning {
                 Meaning::Input(input) => {
                     let (order, axis) = input.component();
-                    self.moment.inputs.values[order][axis] = *value;
+                    self.moment.ends[line].inputs.values[order][axis] = *value;
                 }
                 Meaning::Parameter(_) | Meaning::Place(_) => {
                     if self.moment.parameters[slot] != *value {
@@ -367,7 +393,7 @@ impl Instance {
     /// Time derivatives of inputs at the present communication point; they hold for the next step only.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Refusal> {
         self.check(Call::SetInputDerivatives)?;
-        let mut derivatives = self.moment.inputs.derivatives;
+        let mut inputs: Vec<Inputs> = self.moment.ends.iter().map(|end| end.inputs).collect();
         for ((reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let variable = self.variable(*reference, Kind::Real)?;
             let name = || variable.name.clone();
@@ -381,16 +407,16 @@ impl Instance {
                 return Err(Refusal::Derivative { name: name(), order, value });
             }
             let (component, axis) = input.component();
-            derivatives[order as usize - 1][component][axis] = Some(value);
+            inputs[variable.line].derivatives[order as usize - 1][component][axis] = Some(value);
         }
-        self.moment.inputs.derivatives = derivatives;
+        self.moment.ends.iter_mut().zip(inputs).for_each(|(end, inputs)| end.inputs = inputs);
         Ok(())
     }
 
     /// First time derivatives of outputs.
     pub fn output_derivatives(&self, references: &[u32], orders: &[i32], values: &mut [f64]) -> Result<(), Refusal> {
         self.check(Call::GetOutputDerivatives)?;
-        let rates = self.line.as_ref().map(|line| line.simulation.output_rates());
+        let mut rates: Vec<Option<Outputs>> = vec![None; self.moment.ends.len()];
         for ((reference, &order), value) in references.iter().zip(orders).zip(values) {
             let variable = self.variable(*reference, Kind::Real)?;
             let refuse = |allowed| Refusal::Order { name: variable.name.clone(), order, allowed };
@@ -400,43 +426,52 @@ impl Instance {
             if order != 1 {
                 return Err(refuse("order 1 is available"));
             }
+            let line = self.built.as_ref().and_then(|built| built.lines.get(variable.line));
+            let rates = &mut rates[variable.line];
+            *rates = rates.or_else(|| line.map(|line| line.simulation.output_rates()));
             *value = rates.as_ref().map_or(0.0, |rates| output.of(rates));
         }
         Ok(())
     }
 
-    /// Makes the line, if parameters or position changed since, and puts it in equilibrium at rest at the start time.
+    /// Makes the lines, if parameters or positions changed since, and puts them in equilibrium at rest at the start time.
     fn settle(&mut self) -> Result<(), Refusal> {
-        let origin = self.moment.inputs.values[0];
-        if self.moment.settled && self.moment.origin == origin && self.line.is_some() {
+        let unmoved = self.moment.ends.iter().all(|end| end.origin == end.inputs.values[0]);
+        if self.moment.settled && unmoved && self.built.is_some() {
             return Ok(());
         }
         self.moment.settled = false;
-        self.moment.origin = origin;
+        self.moment.ends.iter_mut().for_each(|end| end.origin = end.inputs.values[0]);
         let start = self.moment.experiment.start;
-        let mut line = self.build()?;
-        let report = line.simulation.settle(Vector3::from(origin), start).map_err(|error| self.refusal(error))?;
-        let outputs = line.simulation.outputs();
-        if !is_finite(&outputs) {
-            return Err(Refusal::NotANumber { until: start });
+        let mut built = self.build()?;
+        for (index, line) in built.lines.iter_mut().enumerate() {
+            let report = line.simulation.settle(line.origin.into(), start).map_err(|error| self.refusal(error))?;
+            let outputs = line.simulation.observe();
+            if !is_finite(&outputs) {
+                return Err(Refusal::NotANumber { line: self.interface.prefix(index), until: start });
+            }
+            self.event(format!(
+                "{}static equilibrium after {} iterations, unbalanced force {:.2e} N: tension {:.6e} N at the fairlead, {:.6e} N at \
+                 the anchor",
+                self.interface.prefix(index),
+                report.iterations,
+                report.residual,
+                outputs.tension,
+                outputs.anchor_tension
+            ));
+            let end = &mut self.moment.ends[index];
+            *end = End { outputs, path: InputPath::at_rest(end.origin), last: LastStep::default(), ..*end };
         }
-        self.event(format!(
-            "static equilibrium after {} iterations, unbalanced force {:.2e} N: tension {:.6e} N at the fairlead, {:.6e} N at the anchor",
-            report.iterations, report.residual, outputs.tension, outputs.anchor_tension
-        ));
-        self.line = Some(line);
-        self.moment.outputs = outputs;
-        self.moment.last = LastStep::default();
-        self.moment.path = InputPath::at_rest(origin);
+        self.built = Some(built);
         self.moment.clock = start;
         self.moment.settled = true;
         Ok(())
     }
 
-    /// The line that the parameters describe, with its fairlead at the moment's origin.
-    fn build(&self) -> Result<BuiltLine, Refusal> {
-        let Moment { parameters, origin, experiment, .. } = self.moment.clone();
-        let settings = self.interface.settings(&parameters).map_err(|reason| Refusal::Parameter {
+    /// The lines that the parameters describe, with their fairleads at the moment's origins.
+    fn build(&self) -> Result<Built, Refusal> {
+        let Moment { parameters, ends, experiment, .. } = &self.moment;
+        let settings = self.interface.settings(parameters).map_err(|reason| Refusal::Parameter {
             name: "of the scene".to_owned(),
             value: "the combination".to_owned(),
             allowed: reason,
@@ -446,24 +481,34 @@ impl Instance {
         if let Some(tolerance) = experiment.tolerance.filter(|_| scene.solver.tolerance == default_tolerance) {
             scene.solver.tolerance = tolerance.clamp(1e-8, 0.1);
         }
-        if let Some(line) = scene.lines.first_mut() {
-            line.fairlead = origin;
-        }
-        check::check(&Scene { motion: Motion::Fixed, ..scene.clone() }, "parameters").map_err(|error| self.refusal(error))?;
-        let simulation = Simulation::new(&scene, 0).map_err(|error| self.refusal(error))?;
-        Ok(BuiltLine { simulation, parameters, origin, tolerance: experiment.tolerance, interpolation: settings.interpolation })
+        scene.lines.iter_mut().zip(ends).for_each(|(line, end)| line.fairlead = end.origin);
+        scene.motion = Motion::Fixed;
+        check::check(&scene, "parameters").map_err(|error| self.refusal(error))?;
+        let build = |(index, end): (usize, &End)| {
+            let mut simulation = Simulation::new(&scene, index).map_err(|error| self.refusal(error))?;
+            simulation.sum_up_work();
+            let path = Path::Fixed(end.origin.into());
+            Ok(BuiltLine { simulation, origin: end.origin, route: None, path, linearised: None })
+        };
+        let lines = ends.iter().enumerate().map(build).collect::<Result<Vec<_>, Refusal>>()?;
+        let (parameters, tolerance) = (parameters.clone(), experiment.tolerance);
+        Ok(Built { lines, parameters, tolerance, interpolation: settings.interpolation })
     }
 
     /// An error of the layers below, with the parameter's name where it speaks of a place in the scene.
     fn refusal(&self, error: Error) -> Refusal {
         match error {
             Error::Value { place, value, allowed, .. } => {
-                Refusal::Parameter { name: self.interface.variable_at(&place), value, allowed }
+                let (name, allowed) = (self.interface.variable_at(&place), self.interface.in_own_words(allowed));
+                Refusal::Parameter { name, value, allowed }
             }
             Error::Unsupported { place, feature, .. } => {
                 Refusal::Unsupported { name: self.interface.variable_at(&place), feature }
             }
-            Error::Reach(_) => Refusal::Reach(error),
+            Error::Reach(ref reach) => {
+                let index = (0..self.interface.lines()).find(|line| reach.place == format!("lines[{line}]")).unwrap_or(0);
+                Refusal::Reach { line: self.interface.prefix(index), error }
+            }
             other => Refusal::Solver(other),
         }
     }
@@ -472,18 +517,29 @@ impl Instance {
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Refusal> {
         self.check(Call::DoStep)?;
         let until = self.end_of_step(time, step)?;
-        let (plan, segment) = self.plan(until);
-        let Some(line) = &mut self.line else { return Err(Refusal::UnknownState) };
-        match line.simulation.advance(until, &segment.path()) {
+        self.plan(until)?;
+        match self.advance(until) {
             Ok(()) => {
-                self.arrive(&plan, &segment, until)?;
+                self.arrive(until)?;
                 self.moment.last_step_size = step;
-                self.moment.inputs.derivatives = Inputs::default().derivatives;
+                self.moment.ends.iter_mut().for_each(|end| end.inputs.derivatives = Inputs::default().derivatives);
                 self.moment.step_status = StepStatus::Done;
                 Ok(())
             }
-            Err(error) => Err(self.step_in_part(&plan, &segment, until, error)),
+            Err(error) => Err(self.step_in_part(until, error)),
         }
+    }
+
+    /// Advances all lines or, where one fails, none.
+    fn advance(&mut self, until: f64) -> Result<(), Error> {
+        let lines = self.built.as_mut().map_or(&mut [][..], |built| &mut built.lines);
+        for index in 0..lines.len() {
+            if let Err(error) = lines[index].advance(until) {
+                lines[..index].iter_mut().for_each(|line| line.simulation.undo());
+                return Err(error);
+            }
+        }
+        Ok(())
     }
 
     /// Checks the master's step against our clock; the end it means.
@@ -512,33 +568,40 @@ impl Instance {
         }
     }
 
-    fn plan(&self, until: f64) -> (Plan, Segment) {
-        let Moment { clock, inputs, path, .. } = &self.moment;
-        let interpolation = self.line.as_ref().map_or_else(Interpolation::default, |line| line.interpolation);
-        let plan = path.plan(interpolation, *clock, until - clock, inputs);
-        let segment = path.segment(&plan, inputs);
-        (plan, segment)
+    /// Decides how the fairleads go to a time.
+    fn plan(&mut self, until: f64) -> Result<(), Refusal> {
+        let Moment { clock, ends, .. } = &self.moment;
+        let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
+        for (line, End { inputs, path, .. }) in built.lines.iter_mut().zip(ends) {
+            let plan = path.plan(built.interpolation, *clock, until - clock, inputs);
+            let segment = path.segment(&plan, inputs);
+            line.route = Some(Route { plan, segment });
+        }
+        Ok(())
     }
 
-    /// Takes over what the line is after reaching a time.
-    fn arrive(&mut self, plan: &Plan, segment: &Segment, time: f64) -> Result<(), Refusal> {
-        let Some(line) = &self.line else { return Err(Refusal::UnknownState) };
-        let outputs = line.simulation.outputs();
-        if !is_finite(&outputs) {
-            self.moment.phase = Phase::Error;
-            self.moment.step_status = StepStatus::Failed;
-            return Err(Refusal::NotANumber { until: time });
+    /// Takes over what the lines are after reaching a time.
+    fn arrive(&mut self, time: f64) -> Result<(), Refusal> {
+        let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
+        for (index, (line, end)) in built.lines.iter_mut().zip(&mut self.moment.ends).enumerate() {
+            end.outputs = line.simulation.observe();
+            if !is_finite(&end.outputs) {
+                self.moment.phase = Phase::Error;
+                self.moment.step_status = StepStatus::Failed;
+                return Err(Refusal::NotANumber { line: self.interface.prefix(index), until: time });
+            }
+            end.last = line.simulation.last_step();
+            if let Some(Route { plan, segment }) = &line.route {
+                end.path.advance(plan, &end.inputs, segment, time);
+            }
+            line.linearised = None;
         }
-        self.moment.outputs = outputs;
-        self.moment.last = line.simulation.last_step();
-        let inputs = self.moment.inputs;
-        self.moment.path.advance(plan, &inputs, segment, time);
         self.moment.clock = time;
         Ok(())
     }
 
     /// After a failure: goes as far as the solver came, or half of it, so that the master learns how far that is.
-    fn step_in_part(&mut self, plan: &Plan, segment: &Segment, until: f64, mut error: Error) -> Refusal {
+    fn step_in_part(&mut self, until: f64, mut error: Error) -> Refusal {
         let stuck_at = match &error {
             Error::Step(stuck) => stuck.time.min(until),
             _ => self.moment.clock,
@@ -546,9 +609,8 @@ impl Instance {
         for part in [0.9, 0.5] {
             let reached = self.moment.clock + part * (stuck_at - self.moment.clock);
             let worth_it = reached - self.moment.clock > 1e-3 * (until - self.moment.clock);
-            let line = self.line.as_mut().filter(|_| worth_it);
-            if line.is_some_and(|line| line.simulation.advance(reached, &segment.path()).is_ok()) {
-                if let Err(refusal) = self.arrive(plan, segment, reached) {
+            if worth_it && self.advance(reached).is_ok() {
+                if let Err(refusal) = self.arrive(reached) {
                     return refusal;
                 }
                 self.moment.phase = Phase::StepFailed;
@@ -574,9 +636,9 @@ impl Instance {
                 let (role, allowed) = ("an unknown", "unknowns are the Real outputs");
                 return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
             };
-            outputs.push(output);
+            outputs.push((variable.line, output));
         }
-        let mut direction = [[0.0; 3]; 2];
+        let mut directions = vec![[[0.0; 3]; 2]; self.moment.ends.len()];
         for (reference, seed) in knowns.iter().zip(seeds) {
             let variable = self.variable(*reference, Kind::Real)?;
             let Meaning::Input(input) = variable.meaning else {
@@ -587,18 +649,36 @@ impl Instance {
                 return Err(Refusal::Derivative { name: variable.name.clone(), order: 0, value: *seed });
             }
             let (order, axis) = input.component();
-            direction[order][axis] += seed;
+            directions[variable.line][order][axis] += seed;
         }
         if self.moment.phase == Phase::Initialization {
             self.settle()?;
         }
         let until = self.moment.clock + self.moment.last_step_size;
-        let (plan, segment) = self.plan(until);
-        let variation = self.moment.path.variation(&plan, &self.moment.inputs, direction).path();
-        let Some(line) = &mut self.line else { return Err(Refusal::UnknownState) };
-        let from = line.simulation.snapshot();
-        let changes = line.simulation.differentiate(&from, until, &segment.path(), &[variation]).map_err(Refusal::Solver)?;
-        Ok(changes.first().map_or_else(Vec::new, |change| outputs.iter().map(|output| output.of(change)).collect()))
+        self.plan(until)?;
+        let mut changes = vec![None; directions.len()];
+        for (line, _) in &outputs {
+            if changes[*line].is_none() && directions[*line] != [[0.0; 3]; 2] {
+                changes[*line] = Some(self.change(*line, until, directions[*line])?);
+            }
+        }
+        Ok(outputs.iter().map(|(line, output)| changes[*line].as_ref().map_or(0.0, |change| output.of(change))).collect())
+    }
+
+    /// Change of a line's outputs at a time along a direction of its inputs now. The steps there are linearised once and kept until
+    /// the inputs change or a step is done.
+    fn change(&mut self, line: usize, until: f64, direction: [[f64; 3]; 2]) -> Result<Outputs, Refusal> {
+        let End { path, inputs, .. } = &self.moment.ends[line];
+        let line = self.built.as_mut().and_then(|built| built.lines.get_mut(line)).ok_or(Refusal::UnknownState)?;
+        let Some(Route { plan, segment }) = &line.route else { return Err(Refusal::UnknownState) };
+        let kept = line.linearised.take().filter(|(end, along, _)| *end == until && along == segment);
+        let kept = match kept {
+            Some(kept) => kept,
+            None => (until, segment.clone(), line.simulation.linearise(until, &segment.path()).map_err(Refusal::Solver)?),
+        };
+        let variation = path.variation(plan, inputs, direction).path();
+        let (_, _, steps) = line.linearised.insert(kept);
+        line.simulation.derivative(steps, &variation).map_err(Refusal::Solver)
     }
 
     /// How the last step ended.
@@ -613,20 +693,19 @@ impl Instance {
         Ok(self.moment.clock)
     }
 
-    fn state(&mut self) -> State {
-        let running = matches!(self.moment.phase, Phase::StepComplete | Phase::StepFailed | Phase::Terminated);
-        let line = self.line.as_mut().filter(|_| running).map(|line| line.simulation.snapshot());
-        State { moment: self.moment.clone(), line }
-    }
-
     /// Keeps the present state under a handle: the given one, if it is not zero, else a new one.
     pub fn get_state(&mut self, handle: usize) -> Result<usize, Refusal> {
         self.check(Call::GetState)?;
-        let state = self.state();
-        if handle == 0 {
-            return Ok(self.keep(state));
-        }
-        **self.states.get_mut(&handle).ok_or(Refusal::UnknownState)? = state;
+        let handle = match handle {
+            0 => self.keep(State { moment: self.moment.clone(), lines: Vec::new() }),
+            given => given,
+        };
+        let state = self.states.get_mut(&handle).ok_or(Refusal::UnknownState)?;
+        state.moment.copy_from(&self.moment);
+        let running = matches!(self.moment.phase, Phase::StepComplete | Phase::StepFailed | Phase::Terminated);
+        let lines = self.built.as_mut().filter(|_| running).map_or(&mut [][..], |built| &mut built.lines);
+        state.lines.resize_with(lines.len(), || Snapshot::new(2));
+        lines.iter_mut().zip(&mut state.lines).for_each(|(line, snapshot)| line.simulation.save(snapshot));
         Ok(handle)
     }
 
@@ -646,31 +725,37 @@ impl Instance {
     }
 
     fn go_to(&mut self, state: &State) -> Result<(), Refusal> {
-        let Some(snapshot) = &state.line else {
-            self.moment = state.moment.clone();
+        let State { moment, lines } = state;
+        if lines.is_empty() {
+            self.moment.copy_from(moment);
             self.moment.settled = false;
-            self.line = None;
+            self.built = None;
             return Ok(());
+        }
+        let fits = |built: &Built| {
+            let placed = built.lines.iter().zip(&moment.ends).all(|(line, end)| line.origin == end.origin);
+            placed && built.parameters == moment.parameters && built.tolerance == moment.experiment.tolerance
         };
-        let State { moment, .. } = state;
-        let fits = |line: &BuiltLine| {
-            let tolerance = moment.experiment.tolerance;
-            line.parameters == moment.parameters && line.origin == moment.origin && line.tolerance == tolerance
-        };
-        if !self.line.as_ref().is_some_and(fits) {
+        if !self.built.as_ref().is_some_and(fits) {
             let present = std::mem::replace(&mut self.moment, moment.clone());
             match self.build() {
-                Ok(line) => self.line = Some(line),
+                Ok(built) => self.built = Some(built),
                 Err(refusal) => {
                     self.moment = present;
                     return Err(refusal);
                 }
             }
+            self.moment = present;
         }
-        if !self.line.as_mut().is_some_and(|line| line.simulation.restore(snapshot)) {
+        let built = self.built.as_mut().map_or(&mut [][..], |built| &mut built.lines);
+        if !built.iter().zip(lines).all(|(line, snapshot)| line.simulation.fits(snapshot)) {
             return Err(Refusal::Serialized("its line has another mesh"));
         }
-        self.moment.clone_from(moment);
+        for (line, snapshot) in built.iter_mut().zip(lines) {
+            line.simulation.restore(snapshot);
+            line.linearised = None;
+        }
+        self.moment.copy_from(moment);
         Ok(())
     }
 
@@ -687,34 +772,20 @@ impl Instance {
 
     /// A state from bytes, under a new handle.
     pub fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Refusal> {
-        let state = State::from_bytes(bytes, self.fingerprint, self.moment.parameters.len())?;
+        let state = State::from_bytes(bytes, self.fingerprint, self.moment.parameters.len(), self.moment.ends.len())?;
         Ok(self.keep(state))
     }
 }
 
 /// An instance as it is made.
 fn first_moment(interface: &Interface) -> Moment {
-    let mut inputs = Inputs::default();
+    let mut inputs = vec![Inputs::default(); interface.lines()];
     for variable in interface.variables() {
         if let Meaning::Input(input) = variable.meaning {
             let (order, axis) = input.component();
-            inputs.values[order][axis] = variable.start;
+            inputs[variable.line].values[order][axis] = variable.start;
         }
     }
-    let zero = Vector3::zeros();
-    let outputs = Outputs {
-        time: 0.0,
-        fairlead: zero,
-        force: zero,
-        tension: 0.0,
-        anchor_force: zero,
-        anchor_tension: 0.0,
-        tension_max: 0.0,
-        declination: 0.0,
-        azimuth: 0.0,
-        grounded_length: 0.0,
-        work: 0.0,
-    };
     Moment {
         phase: Phase::Instantiated,
         experiment: Experiment { start: 0.0, stop: None, tolerance: None },
@@ -722,12 +793,8 @@ fn first_moment(interface: &Interface) -> Moment {
         last_step_size: DEFAULT_STEP,
         step_status: StepStatus::Done,
         parameters: interface.start_values(),
-        origin: inputs.values[0],
         settled: false,
-        inputs,
-        path: InputPath::at_rest(inputs.values[0]),
-        outputs,
-        last: LastStep::default(),
+        ends: inputs.into_iter().map(End::at_rest).collect(),
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 use crate::fmi::resource::{SCENE_FILE, guid};
-use crate::fmi::variables::{Interface, Kind, MODEL_DESCRIPTION, Meaning};
+use crate::fmi::variables::{Interface, Kind, MODEL_DESCRIPTION, MOST_LINES, Meaning, Variable};
 use crate::scene::types::{Motion, Scene};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -26,6 +26,8 @@ const PICTURE: &[u8] = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/mode
 
 /// Where the scene's variables begin in modelDescription.xml that a scene with names of its own replaces.
 const REPLACEABLE: &str = "    <!-- The line and its surroundings";
+/// What stands there instead.
+const REPLACEMENT: &str = "    <!-- The quantities of the scene under its own names -->";
 
 /// The FMU's library for each platform, as far as there is one.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -58,15 +60,25 @@ impl Libraries {
 
 /// Writes the FMU of a checked scene to `out`, and `NAME_OspModelDescription.xml` into the same folder; returns the path of the latter.
 ///
-/// `name` is the scene's: the FMU's modelName. Errors: a scene of several lines, no library, a file that cannot be written.
+/// `name` is the scene's: the FMU's modelName. Errors: a scene of too many lines, a fairlead that a constraint holds, no library, a file
+/// that cannot be written.
 pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Result<PathBuf, Error> {
-    if scene.lines.len() != 1 {
+    if !(1..=MOST_LINES).contains(&scene.lines.len()) {
         return Err(Error::Value {
             file: name.to_owned(),
             place: "lines".to_owned(),
             value: format!("a scene of {} lines", scene.lines.len()),
+            allowed: format!("an FMU holds 1 to {MOST_LINES} lines"),
+        });
+    }
+    if let Some(index) = scene.lines.iter().position(|line| !line.is_pinned(0.0)) {
+        return Err(Error::Value {
+            file: name.to_owned(),
+            place: format!("lines[{index}].constraints"),
+            value: "a constraint at the fairlead".to_owned(),
             allowed:
-                "an FMU holds one line; pack a scene with one line and load the FMU once per line, each with its own parameters"
+                "an FMU's inputs move the fairlead, so it must be pinned: lock all three axes there, without a reference or a \
+                      motion of its own, or take the constraint away"
                     .to_owned(),
         });
     }
@@ -93,7 +105,7 @@ pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Res
     }
     write_archive(&files, out)?;
     let port = out.with_file_name(format!("{name}_OspModelDescription.xml"));
-    fs::write(&port, osp_description()).map_err(|error| failure(&port, &error))?;
+    fs::write(&port, osp_description(&Interface::new(&scene))).map_err(|error| failure(&port, &error))?;
     Ok(port)
 }
 
@@ -124,57 +136,74 @@ fn self_contained(scene: &Scene) -> Scene {
     scene
 }
 
-/// modelDescription.xml for a scene: name, GUID, date, start values and, where the scene has names of its own, its quantities.
+/// modelDescription.xml for a scene: name, GUID, date, and the variables of its interface with their start values, each as in the file of
+/// the built-in scene.
 pub fn render(scene: &Scene, name: &str, date: &str) -> String {
     let interface = Interface::new(scene);
-    let starts: BTreeMap<&str, f64> =
-        interface.variables().iter().map(|variable| (variable.name.as_str(), variable.start)).collect();
     let mut text = String::with_capacity(MODEL_DESCRIPTION.len());
-    let mut start = None;
-    let mut replaced = false;
-    for line in MODEL_DESCRIPTION.lines() {
-        if line == "  </ModelVariables>" {
-            replaced = false;
-        }
-        if interface.has_scene_names() && line.starts_with(REPLACEABLE) {
-            text.push_str(&scene_variables(&interface));
-            replaced = true;
-        }
-        if replaced {
-            continue;
-        }
-        if let Some(variable) = line.trim_start().strip_prefix("<ScalarVariable ") {
-            start = attribute(variable, "name").and_then(|name| starts.get(name)).copied();
-        }
-        let line = match (line, start) {
-            (line, None) if line.starts_with("  modelName=\"") => with_attribute(line, "modelName", &escaped(name)),
-            (line, None) if line.starts_with("  guid=\"") => with_attribute(line, "guid", &guid(scene)),
-            (line, None) if line.starts_with("  generationDateAndTime=\"") => with_attribute(line, "generationDateAndTime", date),
-            (line, Some(value)) if attribute(line, "start").is_some() => with_attribute(line, "start", &value.to_string()),
-            (line, _) => line.to_owned(),
+    let lines = || MODEL_DESCRIPTION.lines();
+    for line in lines().take_while(|line| !line.starts_with("    <!--")) {
+        let line = match line {
+            _ if line.starts_with("  modelName=\"") => with_attribute(line, "modelName", &escaped(name)),
+            _ if line.starts_with("  guid=\"") => with_attribute(line, "guid", &guid(scene)),
+            _ if line.starts_with("  generationDateAndTime=\"") => with_attribute(line, "generationDateAndTime", date),
+            _ => line.to_owned(),
         };
-        text.push_str(&line);
-        text.push('\n');
+        text.push_str(&(line + "\n"));
     }
+    let remark = if interface.has_scene_names() { Some(REPLACEMENT) } else { lines().find(|line| line.starts_with(REPLACEABLE)) };
+    let mut remark = remark.map(|remark| format!("{remark}\n"));
+    for (index, variable) in (1..).zip(interface.variables()) {
+        if variable.is_of_scene() {
+            text.push_str(&remark.take().unwrap_or_default());
+        }
+        text.push_str(&format!("    <!-- {index} -->\n{}", description_of(variable)));
+    }
+    text.push_str("  </ModelVariables>\n\n");
+    text.push_str(&model_structure(&interface));
+    text.push_str("</fmiModelDescription>\n");
     text
 }
 
-/// The quantities of a scene under its own names.
-fn scene_variables(interface: &Interface) -> String {
-    let mut text = String::from("    <!-- The quantities of the scene under its own names -->\n");
-    for variable in interface.variables() {
-        if let Meaning::Place(_) = variable.meaning {
-            let name = escaped(&variable.name);
-            let kind = if variable.kind == Kind::Real { "Real" } else { "Integer" };
-            text.push_str(&format!(
-                "    <ScalarVariable name=\"{name}\" valueReference=\"{}\" causality=\"parameter\" variability=\"fixed\" \
-                 initial=\"exact\" description=\"{name} of the scene\">\n      <{kind} min=\"{}\" max=\"{}\" start=\"{}\"/>\n    \
-                 </ScalarVariable>\n",
-                variable.reference, variable.min, variable.max, variable.start
-            ));
-        }
+/// The element of a variable: that of modelDescription.xml with its name, value reference and start value, or, for a quantity of the
+/// scene, a new one.
+fn description_of(variable: &Variable) -> String {
+    let (name, reference, start) = (escaped(&variable.name), variable.reference.to_string(), variable.start.to_string());
+    if let Meaning::Place(_) = variable.meaning {
+        let kind = if variable.kind == Kind::Real { "Real" } else { "Integer" };
+        return format!(
+            "    <ScalarVariable name=\"{name}\" valueReference=\"{reference}\" causality=\"parameter\" variability=\"fixed\" \
+             initial=\"exact\" description=\"{name} of the scene\">\n      <{kind} min=\"{}\" max=\"{}\" start=\"{start}\"/>\n    \
+             </ScalarVariable>\n",
+            variable.min, variable.max
+        );
     }
-    text
+    let head = format!("    <ScalarVariable name=\"{}\"", variable.stem);
+    let element = MODEL_DESCRIPTION.lines().skip_while(|line| !line.starts_with(&head)).take(3);
+    let changed = element.map(|line| match line {
+        _ if line.starts_with(&head) => with_attribute(&with_attribute(line, "name", &name), "valueReference", &reference),
+        _ if attribute(line, "start").is_some() => with_attribute(line, "start", &start),
+        _ => line.to_owned(),
+    });
+    changed.map(|line| line + "\n").collect()
+}
+
+/// Which output depends on which input: those of its own line.
+fn model_structure(interface: &Interface) -> String {
+    let variables = || (1..).zip(interface.variables());
+    let outputs = || variables().filter(|(_, variable)| matches!(variable.meaning, Meaning::Output(_)));
+    let of_line = |line: usize| {
+        let inputs = variables().filter(|(_, variable)| variable.line == line && matches!(variable.meaning, Meaning::Input(_)));
+        inputs.map(|(index, _): (usize, _)| index.to_string()).collect::<Vec<_>>().join(" ")
+    };
+    let inputs: Vec<String> = (0..interface.lines()).map(of_line).collect();
+    let mut text = String::from("  <ModelStructure>\n    <Outputs>\n");
+    for (index, output) in outputs() {
+        text.push_str(&format!("      <Unknown index=\"{index}\" dependencies=\"{}\"/>\n", inputs[output.line]));
+    }
+    text.push_str("    </Outputs>\n    <InitialUnknowns>\n");
+    outputs().for_each(|(index, _)| text.push_str(&format!("      <Unknown index=\"{index}\"/>\n")));
+    text + "    </InitialUnknowns>\n  </ModelStructure>\n"
 }
 
 /// The value of an attribute in a line of XML.
@@ -195,20 +224,27 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// The port of the fairlead: a pair of force and velocity, which one connection of a system structure joins to a vessel's.
-fn osp_description() -> String {
-    let variables = |indent: usize, stem: &str| -> String {
-        ["x", "y", "z"].map(|axis| format!("{:indent$}<Variable ref=\"{stem}.{axis}\"/>\n", "")).concat()
-    };
+/// The port of each fairlead: a pair of force and velocity, which one connection of a system structure joins to a vessel's.
+fn osp_description(interface: &Interface) -> String {
+    let mut groups = String::new();
+    for line in 0..interface.lines() {
+        let prefix = escaped(&interface.prefix(line));
+        let variables = |indent: usize, stem: &str| -> String {
+            ["x", "y", "z"].map(|axis| format!("{:indent$}<Variable ref=\"{prefix}{stem}.{axis}\"/>\n", "")).concat()
+        };
+        groups += &format!(
+            "    <LinearMechanicalPort name=\"{prefix}fairlead\">\n      <Force name=\"{prefix}fairlead force\">\n{}      </Force>\n      \
+             <LinearVelocity name=\"{prefix}fairlead velocity\">\n{}      </LinearVelocity>\n    </LinearMechanicalPort>\n    \
+             <Generic name=\"{prefix}fairlead position\">\n{}    </Generic>\n",
+            variables(8, "force"),
+            variables(8, "fairlead.velocity"),
+            variables(6, "fairlead.position"),
+        );
+    }
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <OspModelDescription xmlns=\"http://opensimulationplatform.com/MSMI/OSPModelDescription\" version=\"1.0\">\n  \
-         <VariableGroups>\n    <LinearMechanicalPort name=\"fairlead\">\n      <Force name=\"fairlead force\">\n{}      </Force>\n      \
-         <LinearVelocity name=\"fairlead velocity\">\n{}      </LinearVelocity>\n    </LinearMechanicalPort>\n    \
-         <Generic name=\"fairlead position\">\n{}    </Generic>\n  </VariableGroups>\n</OspModelDescription>\n",
-        variables(8, "force"),
-        variables(8, "fairlead.velocity"),
-        variables(6, "fairlead.position"),
+         <VariableGroups>\n{groups}  </VariableGroups>\n</OspModelDescription>\n"
     )
 }
 
@@ -276,11 +312,39 @@ mod tests {
     }
 
     #[test]
-    fn several_lines_are_refused_with_what_to_do() {
+    fn of_several_lines_each_has_its_variables_under_its_name() {
         let mut scene = built_in();
+        scene.lines[0].name = "bow".into();
         scene.lines.push(scene.lines[0].clone());
-        let error = pack(&scene, "harbour", &Libraries::default(), Path::new("harbour.fmu")).unwrap_err().to_string();
-        assert!(error.contains("harbour") && error.contains("2 lines") && error.contains("once per line"), "{error}");
+        scene.lines[1].name = "stern line".into();
+        scene.lines[1].sections[0].length = 1250.0;
+        let text = render(&scene, "two", "2026-01-01T00:00:00Z");
+        for words in [
+            "name=\"bow.tension\" valueReference=\"10\"",
+            "name=\"'stern line'.tension\" valueReference=\"1000010\"",
+            "name=\"'stern line'.solver.substeps\" valueReference=\"1000030\"",
+            "name=\"'stern line'.line.ea\" valueReference=\"1000046\"",
+            "name=\"'stern line'.anchor.position.x\" valueReference=\"1000056\"",
+            "name=\"solver.scheme\" valueReference=\"40\"",
+            "name=\"water.depth\" valueReference=\"59\"",
+            "start=\"1250\"",
+        ] {
+            assert_eq!(text.matches(words).count(), 1, "{words}");
+        }
+        let references: Vec<u32> = text.lines().filter_map(|line| attribute(line, "valueReference")?.parse().ok()).collect();
+        assert!(references.is_sorted_by(|a, b| a < b), "value references do not rise: {references:?}");
+        let (first, second) = text.split_once("dependencies=\"1 2 3 4 5 6\"").unwrap();
+        assert!(first.contains("<Outputs>") && second.contains("dependencies=\"47 48 49 50 51 52\""));
+        assert!(osp_description(&Interface::new(&scene)).contains("<Variable ref=\"'stern line'.force.x\"/>"));
+    }
+
+    #[test]
+    fn a_fairlead_that_inputs_cannot_move_is_refused() {
+        let mut scene = built_in();
+        let springs = serde_json::json!({"s": 0.0, "stiffness": [1.0e6, 1.0e6, 1.0e6]});
+        scene.lines[0].constraints.push(serde_json::from_value(springs).unwrap());
+        let error = pack(&scene, "winch", &Libraries::default(), Path::new("winch.fmu")).unwrap_err().to_string();
+        assert!(error.contains("lines[0].constraints") && error.contains("pinned"), "{error}");
     }
 
     #[test]

@@ -133,8 +133,13 @@ pub enum Refusal {
         cause: String,
     },
     /// The line does not reach from fairlead to anchor.
-    #[error("line.length, fairlead.position and anchor.position do not fit together: {0}")]
-    Reach(Error),
+    #[error("{line}line.length, {line}fairlead.position and {line}anchor.position do not fit together: {error}")]
+    Reach {
+        /// What stands in front of the line's variables.
+        line: String,
+        /// By how much it is too short.
+        error: Error,
+    },
     /// The line could not be put in equilibrium, or a step could not be done at all.
     #[error("{0}")]
     Solver(Error),
@@ -157,8 +162,12 @@ pub enum Refusal {
         feature: String,
     },
     /// The solver claims success with a result that is no number.
-    #[error("the step to t = {until:?} s gave a result that is not a number; go back with fmi2SetFMUstate or fmi2Reset")]
+    #[error(
+        "{line}tension: the step to t = {until:?} s gave a result that is not a number; go back with fmi2SetFMUstate or fmi2Reset"
+    )]
     NotANumber {
+        /// What stands in front of the line's variables.
+        line: String,
         /// End of the step [s].
         until: f64,
     },

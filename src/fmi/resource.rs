@@ -1,7 +1,7 @@
 //! resources/scene.json: where the master unpacked it (a URI), how it is read, and the GUID that ties it to the model description.
 
 use crate::fmi::refusal::Refusal;
-use crate::fmi::variables::MODEL_DESCRIPTION;
+use crate::fmi::variables::{MODEL_DESCRIPTION, MOST_LINES};
 use crate::scene::types::Scene;
 use std::fs;
 use std::path::PathBuf;
@@ -67,10 +67,10 @@ pub fn read_scene(location: &str) -> Result<Scene, Refusal> {
     let refuse = |reason: String| Refusal::Resource { path: path.display().to_string(), reason };
     let text = fs::read_to_string(&path).map_err(|error| refuse(error.to_string()))?;
     let scene: Scene = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
-    if scene.lines.len() == 1 {
-        Ok(scene)
-    } else {
-        Err(refuse(format!("an FMU has one line, this scene has {}", scene.lines.len())))
+    match scene.lines.len() {
+        0 => Err(refuse("it holds no line".to_owned())),
+        count if count > MOST_LINES => Err(refuse(format!("it holds {count} lines, an FMU at most {MOST_LINES}"))),
+        _ => Ok(scene),
     }
 }
 

@@ -12,11 +12,11 @@ use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
 
 const MAGIC: &[u8; 8] = b"MOORLINE";
-const VERSION: u32 = 1;
+const VERSION: u32 = 3;
 const HEADER: usize = 8 + 4 + 16 + 8;
 const CHECKSUM: usize = 16;
 
-/// All that an instance is, but for the line itself.
+/// All that an instance is, but for the lines themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
     /// Where in the life of an instance.
@@ -31,10 +31,17 @@ pub struct Moment {
     pub step_status: StepStatus,
     /// Values of the parameters, by slot.
     pub parameters: Vec<f64>,
+    /// Whether the lines are in equilibrium for these parameters at their origins.
+    pub settled: bool,
+    /// What each line has of its own.
+    pub ends: Vec<End>,
+}
+
+/// The upper end of a line as the master sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct End {
     /// Position at which the line was put in equilibrium [m]; with the parameters it makes the line what it is.
     pub origin: [f64; 3],
-    /// Whether the line is in equilibrium for these parameters at this position.
-    pub settled: bool,
     /// The inputs as last set.
     pub inputs: Inputs,
     /// Where the fairlead's path stands.
@@ -45,13 +52,13 @@ pub struct Moment {
     pub last: LastStep,
 }
 
-/// A moment with the state of the line, if there is a line at that moment.
+/// A moment with the states of the lines, if there are lines at that moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// The instance.
     pub moment: Moment,
-    /// The line.
-    pub line: Option<Snapshot>,
+    /// The lines; none before the initialisation.
+    pub lines: Vec<Snapshot>,
 }
 
 impl State {
@@ -65,9 +72,13 @@ impl State {
         let mut writer = Writer(bytes);
         self.moment.write(&mut writer);
         let mut bytes = writer.0;
-        bytes.push(u8::from(self.line.is_some()));
-        if let Some(line) = &self.line {
+        bytes.extend_from_slice(&(self.lines.len() as u64).to_le_bytes());
+        for line in &self.lines {
+            let begin = bytes.len();
+            bytes.extend_from_slice(&[0; 8]);
             line.to_bytes(&mut bytes);
+            let length = (bytes.len() - begin - 8) as u64;
+            bytes[begin..begin + 8].copy_from_slice(&length.to_le_bytes());
         }
         let length = (bytes.len() - HEADER) as u64;
         bytes[HEADER - 8..HEADER].copy_from_slice(&length.to_le_bytes());
@@ -77,7 +88,7 @@ impl State {
     }
 
     /// Reads bytes that `to_bytes` wrote; anything else, damaged by as little as a bit, is refused.
-    pub fn from_bytes(bytes: &[u8], scene: u128, parameters: usize) -> Result<State, Refusal> {
+    pub fn from_bytes(bytes: &[u8], scene: u128, parameters: usize, lines: usize) -> Result<State, Refusal> {
         let refuse = |reason| Err(Refusal::Serialized(reason));
         if !bytes.starts_with(MAGIC) {
             return refuse("it was not written by moorline");
@@ -99,17 +110,32 @@ impl State {
         if written_for != Some(scene) {
             return refuse("it belongs to an FMU of another scene or interface");
         }
-        Self::read(&mut reader, parameters).map_or_else(|| refuse("its content makes no sense"), Ok)
+        Self::read(&mut reader, parameters, lines).map_or_else(|| refuse("its content makes no sense"), Ok)
     }
 
-    fn read(reader: &mut Reader<'_>, parameters: usize) -> Option<State> {
+    fn read(reader: &mut Reader<'_>, parameters: usize, ends: usize) -> Option<State> {
         let moment = Moment::read(reader)?;
-        let line = if reader.flag()? { Some(Snapshot::from_bytes(reader.0)?) } else { None };
-        (moment.parameters.len() == parameters).then_some(State { moment, line })
+        let count = reader.count().filter(|count| *count == 0 || *count == ends)?;
+        let lines = reader.several(count, |reader| {
+            let length = reader.count()?;
+            Snapshot::from_bytes(reader.take(length)?)
+        })?;
+        let fits = moment.parameters.len() == parameters && moment.ends.len() == ends && reader.0.is_empty();
+        fits.then_some(State { moment, lines })
     }
 }
 
 impl Moment {
+    /// Becomes another moment of the same instance; in the long run it allocates nothing.
+    pub fn copy_from(&mut self, other: &Moment) {
+        let Moment { phase, experiment, clock, last_step_size, step_status, parameters, settled, ends } = other;
+        (self.phase, self.experiment, self.clock, self.last_step_size) = (*phase, *experiment, *clock, *last_step_size);
+        (self.step_status, self.settled) = (*step_status, *settled);
+        self.parameters.clone_from(parameters);
+        self.ends.resize_with(ends.len(), || End::at_rest(Inputs::default()));
+        self.ends.iter_mut().zip(ends).for_each(|(end, other)| end.copy_from(other));
+    }
+
     fn write(&self, writer: &mut Writer) {
         writer.count(self.phase.number());
         writer.count(self.step_status.number());
@@ -120,8 +146,53 @@ impl Moment {
         writer.real(self.last_step_size);
         writer.count(self.parameters.len());
         self.parameters.iter().for_each(|value| writer.real(*value));
-        writer.triple(self.origin);
         writer.flag(self.settled);
+        writer.count(self.ends.len());
+        self.ends.iter().for_each(|end| end.write(writer));
+    }
+
+    fn read(reader: &mut Reader<'_>) -> Option<Moment> {
+        let phase = Phase::from_number(reader.count()?)?;
+        let step_status = StepStatus::from_number(reader.count()?)?;
+        let experiment = Experiment { start: reader.real()?, stop: reader.option()?, tolerance: reader.option()? };
+        let (clock, last_step_size) = (reader.real()?, reader.real()?);
+        let count = reader.count()?;
+        let parameters = reader.several(count, Reader::real)?;
+        let settled = reader.flag()?;
+        let count = reader.count()?;
+        let ends = reader.several(count, End::read)?;
+        Some(Moment { phase, experiment, clock, last_step_size, step_status, parameters, settled, ends })
+    }
+}
+
+impl End {
+    /// A fairlead at rest where the inputs put it.
+    pub fn at_rest(inputs: Inputs) -> End {
+        let (zero, origin) = (Vector3::zeros(), inputs.values[0]);
+        let outputs = Outputs {
+            time: 0.0,
+            fairlead: zero,
+            force: zero,
+            tension: 0.0,
+            anchor_force: zero,
+            anchor_tension: 0.0,
+            tension_max: 0.0,
+            declination: 0.0,
+            azimuth: 0.0,
+            grounded_length: 0.0,
+            work: 0.0,
+        };
+        End { origin, inputs, path: InputPath::at_rest(origin), outputs, last: LastStep::default() }
+    }
+
+    fn copy_from(&mut self, other: &End) {
+        let End { origin, inputs, path, outputs, last } = other;
+        (self.origin, self.inputs, self.outputs, self.last) = (*origin, *inputs, *outputs, *last);
+        self.path.copy_from(path);
+    }
+
+    fn write(&self, writer: &mut Writer) {
+        writer.triple(self.origin);
         self.inputs.values.iter().for_each(|value| writer.triple(*value));
         self.inputs.derivatives.iter().flatten().flatten().for_each(|value| writer.option(*value));
         writer.triple(self.path.position);
@@ -143,14 +214,8 @@ impl Moment {
         writer.real(self.last.error_estimate);
     }
 
-    fn read(reader: &mut Reader<'_>) -> Option<Moment> {
-        let phase = Phase::from_number(reader.count()?)?;
-        let step_status = StepStatus::from_number(reader.count()?)?;
-        let experiment = Experiment { start: reader.real()?, stop: reader.option()?, tolerance: reader.option()? };
-        let (clock, last_step_size) = (reader.real()?, reader.real()?);
-        let count = reader.count()?;
-        let parameters = reader.several(count, Reader::real)?;
-        let (origin, settled) = (reader.triple()?, reader.flag()?);
+    fn read(reader: &mut Reader<'_>) -> Option<End> {
+        let origin = reader.triple()?;
         let mut inputs = Inputs { values: [reader.triple()?, reader.triple()?], ..Inputs::default() };
         for slot in inputs.derivatives.iter_mut().flatten().flatten() {
             *slot = reader.option()?;
@@ -178,20 +243,7 @@ impl Moment {
             work: reader.real()?,
         };
         let last = LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
-        Some(Moment {
-            phase,
-            experiment,
-            clock,
-            last_step_size,
-            step_status,
-            parameters,
-            origin,
-            settled,
-            inputs,
-            path,
-            outputs,
-            last,
-        })
+        Some(End { origin, inputs, path, outputs, last })
     }
 }
 
@@ -229,6 +281,12 @@ impl Reader<'_> {
         let (first, rest) = self.0.split_first_chunk::<N>()?;
         self.0 = rest;
         Some(*first)
+    }
+
+    fn take(&mut self, length: usize) -> Option<&[u8]> {
+        let (first, rest) = self.0.split_at_checked(length)?;
+        self.0 = rest;
+        Some(first)
     }
 
     fn real(&mut self) -> Option<f64> {

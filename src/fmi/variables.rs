@@ -3,7 +3,7 @@
 //! Names, value references and limits come from `modelDescription/modelDescription.xml` through `build.rs`; the meaning stands here, in
 //! matches over every variable: parameter → field of the scene, input → component of the fairlead's motion, output → field of `Outputs`.
 
-use crate::scene::types::{Line, LineType, Scene, Scheme, Section};
+use crate::scene::types::{LineType, Scene, Scheme, Section};
 use crate::solve::simulation::{LastStep, Outputs};
 use serde_json::Value;
 
@@ -14,6 +14,12 @@ pub const MODEL_DESCRIPTION: &str = include_str!(concat!(env!("CARGO_MANIFEST_DI
 
 /// First value reference of the quantities that a packed scene exposes under its own names.
 const FIRST_SCENE_REFERENCE: u32 = 1000;
+
+/// Of several lines, line number n has the value references n·STRIDE + those of a single line.
+pub const STRIDE: u32 = 1_000_000;
+
+/// Most lines of an FMU.
+pub const MOST_LINES: usize = 1000;
 
 /// One row of the generated table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,8 +67,12 @@ pub enum Meaning {
 /// A variable of one FMU.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variable {
-    /// Name.
+    /// Name; of several lines, with the line's in front.
     pub name: String,
+    /// Name in modelDescription.xml; empty for the scene's own quantities.
+    pub stem: &'static str,
+    /// Number of the line it belongs to; 0 for what all lines share.
+    pub line: usize,
     /// Value reference.
     pub reference: u32,
     /// What it is.
@@ -77,6 +87,17 @@ pub struct Variable {
     pub start: f64,
     /// Number among the parameters, in the order of the description; for all others 0.
     pub slot: usize,
+}
+
+impl Variable {
+    /// Whether it is a parameter of the line and its surroundings, under whatever name.
+    pub fn is_of_scene(&self) -> bool {
+        match self.meaning {
+            Meaning::Place(_) => true,
+            Meaning::Parameter(parameter) => parameter.belongs_to_single_section(),
+            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) => false,
+        }
+    }
 }
 
 /// What moves the fairlead between communication points (`input.interpolation`).
@@ -111,52 +132,120 @@ enum Field<'a> {
 }
 
 impl Parameter {
-    /// The field of the settings that this parameter is, and the place of that field in the scene as error messages name it.
-    /// `None`: the scene has no single line of a single section.
-    fn field(self, settings: &mut Settings) -> Option<(Field<'_>, &'static str)> {
+    /// The field of the settings that this parameter is, of line number `line` where each has its own.
+    /// `None`: there is no such line.
+    fn field(self, settings: &mut Settings, line: usize) -> Option<Field<'_>> {
         use Field::{Elements, Interpolation, Real};
         let Settings { scene, interpolation } = settings;
         Some(match self {
-            Parameter::SolverScheme => (Field::Scheme(&mut scene.solver.scheme), "solver.scheme"),
-            Parameter::SolverTolerance => (Real(&mut scene.solver.tolerance), "solver.tolerance"),
-            Parameter::SolverMaxStep => (Real(&mut scene.solver.max_step), "solver.max_step"),
-            Parameter::InputInterpolation => (Interpolation(interpolation), "input.interpolation"),
-            Parameter::LineLength => (Real(&mut section(scene)?.length), "length"),
-            Parameter::LineElements => (Elements(&mut section(scene)?.elements), "elements"),
-            Parameter::LineEa => (Real(&mut line_type(scene)?.ea), "ea"),
-            Parameter::LineEi => (Real(&mut line_type(scene)?.ei), "ei"),
-            Parameter::LineMass => (Real(&mut line_type(scene)?.mass), "mass"),
-            Parameter::LineSubmergedWeight => (Real(line_type(scene)?.submerged_weight.get_or_insert(0.0)), "submerged_weight"),
-            Parameter::LineDiameter => (Real(&mut line_type(scene)?.diameter), "diameter"),
-            Parameter::LineDragNormal => (Real(&mut line_type(scene)?.drag.normal), "drag.normal"),
-            Parameter::LineDragTangential => (Real(&mut line_type(scene)?.drag.tangential), "drag.tangential"),
-            Parameter::LineAddedMassNormal => (Real(&mut line_type(scene)?.added_mass.normal), "added_mass.normal"),
-            Parameter::LineAddedMassTangential => (Real(&mut line_type(scene)?.added_mass.tangential), "added_mass.tangential"),
-            Parameter::LineDamping => (Real(&mut line_type(scene)?.damping), "damping"),
-            Parameter::AnchorPositionX => (Real(&mut line(scene)?.anchor[0]), "anchor"),
-            Parameter::AnchorPositionY => (Real(&mut line(scene)?.anchor[1]), "anchor"),
-            Parameter::AnchorPositionZ => (Real(&mut line(scene)?.anchor[2]), "anchor"),
-            Parameter::WaterDepth => (Real(&mut scene.environment.depth), "environment.depth"),
-            Parameter::WaterDensity => (Real(&mut scene.environment.water_density), "environment.water_density"),
-            Parameter::SeabedStiffness => {
-                (Real(scene.environment.seabed.stiffness.get_or_insert(0.0)), "environment.seabed.stiffness")
-            }
-            Parameter::SeabedDamping => (Real(&mut scene.environment.seabed.damping), "environment.seabed.damping"),
-            Parameter::SeabedFriction => (Real(&mut scene.environment.seabed.friction), "environment.seabed.friction"),
+            Parameter::SolverScheme => Field::Scheme(&mut scene.solver.scheme),
+            Parameter::SolverTolerance => Real(&mut scene.solver.tolerance),
+            Parameter::SolverMaxStep => Real(&mut scene.solver.max_step),
+            Parameter::InputInterpolation => Interpolation(interpolation),
+            Parameter::LineLength => Real(&mut section(scene, line)?.length),
+            Parameter::LineElements => Elements(&mut section(scene, line)?.elements),
+            Parameter::LineEa => Real(&mut line_type(scene, line)?.ea),
+            Parameter::LineEi => Real(&mut line_type(scene, line)?.ei),
+            Parameter::LineMass => Real(&mut line_type(scene, line)?.mass),
+            Parameter::LineSubmergedWeight => Real(line_type(scene, line)?.submerged_weight.get_or_insert(0.0)),
+            Parameter::LineDiameter => Real(&mut line_type(scene, line)?.diameter),
+            Parameter::LineDragNormal => Real(&mut line_type(scene, line)?.drag.normal),
+            Parameter::LineDragTangential => Real(&mut line_type(scene, line)?.drag.tangential),
+            Parameter::LineAddedMassNormal => Real(&mut line_type(scene, line)?.added_mass.normal),
+            Parameter::LineAddedMassTangential => Real(&mut line_type(scene, line)?.added_mass.tangential),
+            Parameter::LineDamping => Real(&mut line_type(scene, line)?.damping),
+            Parameter::AnchorPositionX => Real(&mut scene.lines.get_mut(line)?.anchor[0]),
+            Parameter::AnchorPositionY => Real(&mut scene.lines.get_mut(line)?.anchor[1]),
+            Parameter::AnchorPositionZ => Real(&mut scene.lines.get_mut(line)?.anchor[2]),
+            Parameter::WaterDepth => Real(&mut scene.environment.depth),
+            Parameter::WaterDensity => Real(&mut scene.environment.water_density),
+            Parameter::SeabedStiffness => Real(scene.environment.seabed.stiffness.get_or_insert(0.0)),
+            Parameter::SeabedDamping => Real(&mut scene.environment.seabed.damping),
+            Parameter::SeabedFriction => Real(&mut scene.environment.seabed.friction),
         })
+    }
+
+    /// The place of that field in the scene, as error messages name it.
+    fn place(self, scene: &Scene, line: usize) -> String {
+        let section = scene.lines.get(line).and_then(|line| line.sections.first());
+        let of_section = |key: &str| format!("lines[{line}].sections[0].{key}");
+        let of_type = |key: &str| format!("line_types.{}.{key}", section.map_or("", |section| &section.line_type));
+        match self {
+            Parameter::SolverScheme => "solver.scheme".to_owned(),
+            Parameter::SolverTolerance => "solver.tolerance".to_owned(),
+            Parameter::SolverMaxStep => "solver.max_step".to_owned(),
+            Parameter::InputInterpolation => "input.interpolation".to_owned(),
+            Parameter::LineLength => of_section("length"),
+            Parameter::LineElements => of_section("elements"),
+            Parameter::LineEa => of_type("ea"),
+            Parameter::LineEi => of_type("ei"),
+            Parameter::LineMass => of_type("mass"),
+            Parameter::LineSubmergedWeight => of_type("submerged_weight"),
+            Parameter::LineDiameter => of_type("diameter"),
+            Parameter::LineDragNormal => of_type("drag.normal"),
+            Parameter::LineDragTangential => of_type("drag.tangential"),
+            Parameter::LineAddedMassNormal => of_type("added_mass.normal"),
+            Parameter::LineAddedMassTangential => of_type("added_mass.tangential"),
+            Parameter::LineDamping => of_type("damping"),
+            Parameter::WaterDepth => "environment.depth".to_owned(),
+            Parameter::WaterDensity => "environment.water_density".to_owned(),
+            Parameter::SeabedStiffness => "environment.seabed.stiffness".to_owned(),
+            Parameter::SeabedDamping => "environment.seabed.damping".to_owned(),
+            Parameter::SeabedFriction => "environment.seabed.friction".to_owned(),
+            Parameter::AnchorPositionX | Parameter::AnchorPositionY | Parameter::AnchorPositionZ => {
+                format!("lines[{line}].anchor")
+            }
+        }
+    }
+
+    /// Whether each line has its own; all others are shared.
+    fn belongs_to_line(self) -> bool {
+        match self {
+            Parameter::SolverScheme
+            | Parameter::SolverTolerance
+            | Parameter::SolverMaxStep
+            | Parameter::InputInterpolation
+            | Parameter::WaterDepth
+            | Parameter::WaterDensity
+            | Parameter::SeabedStiffness
+            | Parameter::SeabedDamping
+            | Parameter::SeabedFriction => false,
+            Parameter::LineLength
+            | Parameter::LineElements
+            | Parameter::LineEa
+            | Parameter::LineEi
+            | Parameter::LineMass
+            | Parameter::LineSubmergedWeight
+            | Parameter::LineDiameter
+            | Parameter::LineDragNormal
+            | Parameter::LineDragTangential
+            | Parameter::LineAddedMassNormal
+            | Parameter::LineAddedMassTangential
+            | Parameter::LineDamping
+            | Parameter::AnchorPositionX
+            | Parameter::AnchorPositionY
+            | Parameter::AnchorPositionZ => true,
+        }
     }
 }
 
-fn line(scene: &mut Scene) -> Option<&mut Line> {
-    scene.lines.first_mut()
+impl Meaning {
+    /// Whether each line has its own; all others are shared.
+    fn belongs_to_line(self) -> bool {
+        match self {
+            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) => true,
+            Meaning::Parameter(parameter) => parameter.belongs_to_line(),
+            Meaning::Place(_) => false,
+        }
+    }
 }
 
-fn section(scene: &mut Scene) -> Option<&mut Section> {
-    line(scene)?.sections.first_mut()
+fn section(scene: &mut Scene, line: usize) -> Option<&mut Section> {
+    scene.lines.get_mut(line)?.sections.first_mut()
 }
 
-fn line_type(scene: &mut Scene) -> Option<&mut LineType> {
-    let name = &scene.lines.first()?.sections.first()?.line_type;
+fn line_type(scene: &mut Scene, line: usize) -> Option<&mut LineType> {
+    let name = &scene.lines.get(line)?.sections.first()?.line_type;
     scene.line_types.get_mut(name)
 }
 
@@ -266,8 +355,9 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// The interface of a scene with one line. A line of one section without attachments, in still water, has the parameters
-    /// `line.…`, `anchor.…`, `water.…`, `seabed.…`; any other exposes its quantities under the scene's names.
+    /// The interface of a scene. Lines of one section without attachments, in still water, have the parameters `line.…`, `anchor.…`,
+    /// `water.…`, `seabed.…`; any other scene exposes its quantities under its own names. Of several lines, each has its variables with
+    /// its name in front.
     pub fn new(scene: &Scene) -> Interface {
         let scene_names = uses_scene_names(scene);
         let mut settings = Settings { scene: scene.clone(), interpolation: Interpolation::default() };
@@ -275,16 +365,18 @@ impl Interface {
             make_explicit(&mut settings.scene);
         }
         let mut interface = Interface { settings, variables: Vec::new(), places: Vec::new(), parameters: 0 };
-        for definition in DEFINITIONS {
-            interface.add_definition(definition, scene_names);
-        }
-        if scene_names {
-            interface.add_places();
+        for line in 0..scene.lines.len().min(MOST_LINES) {
+            for definition in DEFINITIONS.iter().filter(|definition| line == 0 || definition.meaning.belongs_to_line()) {
+                interface.add_definition(definition, line, scene_names);
+            }
+            if line == 0 && scene_names {
+                interface.add_places();
+            }
         }
         interface
     }
 
-    fn add_definition(&mut self, definition: &Definition, scene_names: bool) {
+    fn add_definition(&mut self, definition: &Definition, line: usize, scene_names: bool) {
         let mut start = definition.start;
         let mut slot = 0;
         match definition.meaning {
@@ -292,21 +384,36 @@ impl Interface {
                 if scene_names && parameter.belongs_to_single_section() {
                     return;
                 }
-                if let Some((field, _)) = parameter.field(&mut self.settings) {
+                if let Some(field) = parameter.field(&mut self.settings, line) {
                     start = field.read();
                 }
                 slot = self.parameters;
                 self.parameters += 1;
             }
             Meaning::Input(input) => {
-                if let ((0, axis), Some(line)) = (input.component(), self.settings.scene.lines.first()) {
+                if let ((0, axis), Some(line)) = (input.component(), self.settings.scene.lines.get(line)) {
                     start = line.fairlead[axis];
                 }
             }
             Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => {}
         }
-        let Definition { name, reference, meaning, kind, min, max, .. } = *definition;
-        self.variables.push(Variable { name: name.to_owned(), reference, meaning, kind, min, max, start, slot });
+        let Definition { name: stem, reference, meaning, kind, min, max, .. } = *definition;
+        let prefix = if meaning.belongs_to_line() { self.prefix(line) } else { String::new() };
+        let (name, reference) = (prefix + stem, line as u32 * STRIDE + reference);
+        self.variables.push(Variable { name, stem, line, reference, meaning, kind, min, max, start, slot });
+    }
+
+    /// What stands in front of the names of a line's variables: nothing where there is one line alone.
+    pub fn prefix(&self, line: usize) -> String {
+        match &self.settings.scene.lines[..] {
+            lines if lines.len() > 1 => lines.get(line).map_or_else(String::new, |line| identifier(&line.name) + "."),
+            _ => String::new(),
+        }
+    }
+
+    /// Number of lines.
+    pub fn lines(&self) -> usize {
+        self.settings.scene.lines.len()
     }
 
     /// Every number of the scene but those that have a variable already (fairlead, solver) and those that only a run uses.
@@ -327,7 +434,8 @@ impl Interface {
                 let meaning = Meaning::Place(self.places.len());
                 let (min, max) = if kind == Kind::Real { (-1e15, 1e15) } else { (0.0, i32::MAX as f64) };
                 let start = number.as_f64().unwrap_or(0.0);
-                self.variables.push(Variable { name, reference, meaning, kind, min, max, start, slot: self.parameters });
+                let (stem, line, slot) = ("", 0, self.parameters);
+                self.variables.push(Variable { name, stem, line, reference, meaning, kind, min, max, start, slot });
                 self.parameters += 1;
                 self.places.push(pointer);
             }
@@ -385,7 +493,7 @@ impl Interface {
         for (variable, value) in self.variables.iter().filter_map(|variable| Some((variable, *values.get(variable.slot)?))) {
             match variable.meaning {
                 Meaning::Parameter(parameter) => {
-                    if let Some((field, _)) = parameter.field(&mut settings) {
+                    if let Some(field) = parameter.field(&mut settings, variable.line) {
                         field.write(value);
                     }
                 }
@@ -410,17 +518,26 @@ impl Interface {
 
     /// The variable that a place of the scene (as in `Error::Value`) speaks of; the place itself where none does.
     pub fn variable_at(&self, place: &str) -> String {
-        let mut settings = self.settings.clone();
-        let speaks_of = |end: &str| place == end || place.ends_with(&format!(".{end}"));
-        if speaks_of("fairlead") {
-            return "fairlead.position".to_owned();
+        let speaks_of = |own: &str| place.strip_prefix(own).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']));
+        if let Some(line) = (0..self.lines()).find(|line| speaks_of(&format!("lines[{line}].fairlead"))) {
+            return self.prefix(line) + "fairlead.position";
         }
-        let named = self.variables.iter().find(|variable| match variable.meaning {
-            Meaning::Parameter(parameter) => parameter.field(&mut settings).is_some_and(|(_, end)| speaks_of(end)),
-            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => false,
-        });
-        let name = named.map_or(place, |variable| variable.name.as_str());
+        let mut named = self.parameters_with_places();
+        let name = named.find(|(_, own)| speaks_of(own)).map_or(place, |(variable, _)| variable.name.as_str());
         name.strip_suffix(".x").unwrap_or(name).to_owned()
+    }
+
+    /// A message of the layers below with places of the scene replaced by the variables that stand for them.
+    pub fn in_own_words(&self, text: String) -> String {
+        self.parameters_with_places().fold(text, |text, (variable, place)| text.replace(&place, &variable.name))
+    }
+
+    /// The parameters with a name of their own, and the places of the scene that they are.
+    fn parameters_with_places(&self) -> impl Iterator<Item = (&Variable, String)> {
+        self.variables.iter().filter_map(|variable| match variable.meaning {
+            Meaning::Parameter(parameter) => Some((variable, parameter.place(&self.settings.scene, variable.line))),
+            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => None,
+        })
     }
 }
 
@@ -434,22 +551,47 @@ impl Parameter {
     }
 }
 
-/// Whether a scene's quantities go under its own names: several sections, attachments, waves or current.
+/// Whether a scene's quantities go under its own names: several sections, attachments, waves or current, or lines that leave the stiffness
+/// of the bed to defaults that differ.
 fn uses_scene_names(scene: &Scene) -> bool {
-    let plain = scene.lines.iter().all(|line| line.sections.len() == 1 && line.attachments.is_empty());
-    !plain || scene.environment.waves.is_some() || !scene.environment.current.is_empty()
+    let plain =
+        scene.lines.iter().all(|line| line.sections.len() == 1 && line.attachments.is_empty() && line.constraints.is_empty());
+    let mut types = scene.lines.iter().filter_map(|line| scene.line_types.get(&line.sections.first()?.line_type));
+    let first = types.next().map(|line_type| bed_stiffness(scene, line_type));
+    let one_bed = scene.environment.seabed.stiffness.is_some() || types.all(|other| Some(bed_stiffness(scene, other)) == first);
+    !plain || !one_bed || scene.environment.waves.is_some() || !scene.environment.current.is_empty()
 }
 
-/// Writes down what the scene leaves to defaults that depend on other quantities, so that every parameter has a value of its own.
+/// The stiffness of the bed under a line, where the scene gives none [Pa].
+fn bed_stiffness(scene: &Scene, line_type: &LineType) -> f64 {
+    let weight = line_type.weight_in_water(scene.environment.water_density, scene.environment.gravity);
+    let sinking = if weight > 0.0 { weight } else { line_type.mass * scene.environment.gravity };
+    sinking / line_type.diameter
+}
+
+/// Writes down what the scene leaves to defaults that depend on other quantities, and gives each of several lines a type of its own, so
+/// that every parameter has a value of its own.
 fn make_explicit(scene: &mut Scene) {
     let (density, gravity) = (scene.environment.water_density, scene.environment.gravity);
-    let Some(line_type) = line_type(scene) else { return };
-    let weight = line_type.weight_in_water(density, gravity);
-    line_type.submerged_weight = Some(weight);
-    line_type.buoyancy = None;
-    let sinking = if weight > 0.0 { weight } else { line_type.mass * gravity };
-    let stiffness = sinking / line_type.diameter;
-    scene.environment.seabed.stiffness.get_or_insert(stiffness);
+    if let Some(line_type) = line_type(scene, 0).map(|line_type| line_type.clone()) {
+        let stiffness = bed_stiffness(scene, &line_type);
+        scene.environment.seabed.stiffness.get_or_insert(stiffness);
+    }
+    let several = scene.lines.len() > 1;
+    let shared = scene.line_types.clone();
+    if several {
+        scene.line_types.clear();
+    }
+    for line in &mut scene.lines {
+        let Some(section) = line.sections.first_mut() else { continue };
+        let Some(mut line_type) = shared.get(&section.line_type).cloned() else { continue };
+        line_type.submerged_weight = Some(line_type.weight_in_water(density, gravity));
+        line_type.buoyancy = None;
+        if several {
+            section.line_type.clone_from(&line.name);
+        }
+        scene.line_types.insert(section.line_type.clone(), line_type);
+    }
 }
 
 /// A key of the scene as a part of a structured FMI name: as it is, or quoted where it is no identifier.

@@ -108,7 +108,7 @@ fn scheme(record: &Record) -> String {
 fn banner(record: &Record) -> String {
     let Some(error) = &record.ended_by else { return String::new() };
     let headline = match record.end_time() {
-        Some(end) => format!("The run ended at t = {} s of {} s.", sim_time(end), sim_time(record.scene.run.duration)),
+        Some(end) => format!("The run ended at t = {} s of {} s.", sim_time(end), sim_time(record.scene.run.end())),
         None => "There is no static equilibrium to start from; the best state found is shown.".to_string(),
     };
     format!("<div class=\"banner\" role=\"alert\"><b>{}</b>{}</div>", escaped(&headline), escaped(&error.to_string()))

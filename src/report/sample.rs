@@ -22,5 +22,5 @@ pub fn outputs(time: f64, tension: f64) -> Outputs {
 
 /// A node at an arc length [m] of a line along x, with its tension [N].
 pub fn node(s: f64, tension: f64) -> NodeOutput {
-    NodeOutput { s, position: Vector3::x() * s, tangent: Vector3::x(), tension }
+    NodeOutput { s, position: Vector3::x() * s, tangent: Vector3::x(), tension, wall_tension: None }
 }

@@ -5,9 +5,10 @@ use crate::scene::types::Run;
 /// Most snapshots that a run keeps of the line's shape, the first and the last aside.
 const SNAPSHOTS: usize = 300;
 
-/// The output times of a run: every `output_step` from 0, and the end of the run even where it is no multiple.
+/// The output times of a run: every `output_step` from its start, and the end of the run even where it is no multiple.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Schedule {
+    start: f64,
     duration: f64,
     step: f64,
     whole_steps: usize,
@@ -18,10 +19,10 @@ impl Schedule {
     pub fn new(run: &Run) -> Schedule {
         // A duration that is a multiple up to rounding ends with that multiple, not with a sliver of a step.
         let whole_steps = (run.duration / run.output_step * (1.0 + 1.0e-12) + 1.0e-9).floor() as usize;
-        Schedule { duration: run.duration, step: run.output_step, whole_steps }
+        Schedule { start: run.start, duration: run.duration, step: run.output_step, whole_steps }
     }
 
-    /// Number of rows, the one at t = 0 included.
+    /// Number of rows, the one at the start included.
     pub fn rows(&self) -> usize {
         let ends_between_multiples = self.duration - self.multiple(self.whole_steps) > 1.0e-9 * self.step.max(self.duration);
         self.whole_steps + 1 + usize::from(ends_between_multiples)
@@ -29,7 +30,7 @@ impl Schedule {
 
     /// Time of row `row` [s], rows counted from 0.
     pub fn time(&self, row: usize) -> f64 {
-        if row > self.whole_steps { self.duration } else { self.multiple(row) }
+        self.start + if row > self.whole_steps { self.duration } else { self.multiple(row) }
     }
 
     /// Every how many rows a snapshot of the nodes is kept.
@@ -55,7 +56,7 @@ mod tests {
     use super::*;
 
     fn schedule(duration: f64, output_step: f64) -> Schedule {
-        Schedule::new(&Run { duration, output_step })
+        Schedule::new(&Run { duration, start: 0.0, output_step })
     }
 
     #[test]

@@ -93,15 +93,17 @@ impl<W: Write> TimeSeries<W> {
 /// `nodes.csv`: the nodes of all lines at the snapshots, nodes counted from 0 at the fairlead.
 pub struct Nodes<W: Write> {
     table: Table<W>,
+    walls: bool,
 }
 
 impl<W: Write> Nodes<W> {
-    /// Writes the header; `path` is for messages.
-    pub fn new(to: W, path: &Path) -> Result<Nodes<W>, Error> {
+    /// Writes the header; `path` is for messages; `walls`: with a column for the tension of the wall.
+    pub fn new(to: W, path: &Path, walls: bool) -> Result<Nodes<W>, Error> {
         let mut table = Table::new(to, path);
-        table.row(["time", "line", "node", "s", "x", "y", "z", "tension"])?;
+        let wall = walls.then_some("wall_tension");
+        table.row(["time", "line", "node", "s", "x", "y", "z", "tension"].into_iter().chain(wall))?;
         table.flush()?;
-        Ok(Nodes { table })
+        Ok(Nodes { table, walls })
     }
 
     /// Writes the snapshot of a time [s]: names and nodes of the lines.
@@ -109,7 +111,9 @@ impl<W: Write> Nodes<W> {
         for (line, nodes) in lines {
             for (index, node) in nodes.iter().enumerate() {
                 let [s, x, y, z] = [node.s, node.position.x, node.position.y, node.position.z].map(number);
-                self.table.row([number(time), line.to_string(), index.to_string(), s, x, y, z, number(node.tension)])?;
+                let wall = self.walls.then(|| node.wall_tension.map_or(String::new(), number));
+                let cells = [number(time), line.to_string(), index.to_string(), s, x, y, z, number(node.tension)];
+                self.table.row(cells.into_iter().chain(wall))?;
             }
         }
         self.table.flush()

@@ -7,24 +7,27 @@
 //! R residual [N] (positions) and [N·m] (slopes): the force that must be applied from outside for the motion to be as it is.
 //! N_k Hermite shape functions, X load per length [N/m], n axial force [N], f force of the water [N/m].
 
-use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
 use crate::algebra::polynomial::Cubic;
-use crate::algebra::shape::{GAUSS3, SHAPES3, Shape};
+use crate::algebra::shape::{GAUSS3, SHAPES3};
 use crate::rod::bending::Bending;
+use crate::rod::elasticity::Curves;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::seabed::Bed;
 use crate::rod::state::COMPONENTS;
 use crate::rod::state::Field;
 use crate::rod::stretch::{Axial, Direction, Stretch};
-use nalgebra::{Matrix3, Vector3};
+use crate::sea::clock::Clock;
+use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 use std::marker::PhantomData;
 
 /// The motion at which forces are asked for.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<'a> {
+    /// When.
+    pub clock: Clock,
     /// Positions and slopes.
     pub u: &'a Field,
     /// Their rates.
@@ -48,7 +51,7 @@ pub struct Weights {
 
 /// A property of an element.
 #[derive(Debug, Clone, Copy)]
-enum Property {
+pub(in crate::rod) enum Property {
     /// Length [m]; 1 for joints, so that quotients stay finite.
     Length,
     /// 1/length.
@@ -79,15 +82,17 @@ pub struct Table {
     elements: usize,
     stride: usize,
     data: Vec<f64>,
-    processor: Arch,
+    curves: Curves,
+    /// What the processor can do.
+    pub processor: Arch,
 }
 
 /// Bound of the friction of a slack element, as a share of its weight in air.
 const SLACK_FRICTION: f64 = 0.05;
 
 impl Table {
-    /// The properties of a mesh; `surface`: there is air above z = 0.
-    pub fn new(mesh: &Mesh, surface: bool) -> Table {
+    /// The properties of a mesh; `surface`: there is air above, and this is the height below which the surface never falls [m].
+    pub fn new(mesh: &Mesh, surface: Option<f64>) -> Table {
         let elements = mesh.elements.len();
         let stride = padded(elements + 1);
         let mut data = vec![0.0; PROPERTIES * stride + MOST_LANES];
@@ -101,7 +106,7 @@ impl Table {
             put(Property::Mass, e, p.mass);
             put(Property::WeightInAir, e, p.weight_in_air);
             put(Property::Buoyancy, e, p.weight_in_air - p.weight);
-            put(Property::Waterline, e, if surface { -0.5 * p.diameter } else { f64::INFINITY });
+            put(Property::Waterline, e, surface.map_or(f64::INFINITY, |lowest| lowest - 0.5 * p.diameter));
             put(Property::Ea, e, p.ea);
             put(Property::Damping, e, p.damping);
             put(Property::Floor, e, p.tension_floor());
@@ -112,7 +117,7 @@ impl Table {
             put(Property::AddedNormal, e, p.added_normal);
             put(Property::AddedTangential, e, p.added_tangential);
         }
-        Table { elements, stride, data, processor: Arch::new() }
+        Table { elements, stride, data, curves: Curves::new(mesh), processor: Arch::new() }
     }
 
     /// Number of elements, joints included.
@@ -145,44 +150,72 @@ impl Table {
 
     /// Coefficients of the water's force on element `e`.
     pub fn coefficients(&self, e: usize) -> Coefficients<f64> {
-        Batch::<f64> { cpu: (), rows: &self.rows(), e }.coefficients()
+        Coefficients {
+            drag_normal: self.get(Property::DragNormal, e),
+            drag_tangential: self.get(Property::DragTangential, e),
+            added_normal: self.get(Property::AddedNormal, e),
+            added_tangential: self.get(Property::AddedTangential, e),
+            buoyancy: self.get(Property::Buoyancy, e),
+        }
     }
 
-    fn axial(&self, e: usize) -> Axial<f64> {
-        Batch::<f64> { cpu: (), rows: &self.rows(), e }.axial()
+    /// Axial properties of a point of element `e`, at a slope and a height.
+    fn axial<S: Stretch>(&self, e: usize, slope: Vector3<f64>, z: f64) -> Axial<f64> {
+        let axial = Batch::<f64> { cpu: (), rows: &self.rows(), e }.axial();
+        with_curve::<f64, S>(axial, (), &self.curves, e, &Direction::of(slope.into()), z)
     }
 }
 
-/// Properties of the elements of a batch.
-struct Batch<'a, F: Real> {
+/// Axial properties with the tension and stiffness of a point, where they come from tables.
+#[inline(always)]
+pub(in crate::rod) fn with_curve<F: Real, S: Stretch>(
+    axial: Axial<F>,
     cpu: F::Cpu,
-    rows: &'a [&'a [f64]; PROPERTIES],
+    curves: &Curves,
     e: usize,
+    direction: &Direction<F>,
+    z: F,
+) -> Axial<F> {
+    if !S::SPECIAL {
+        return axial;
+    }
+    let (elastic, stiffness) = curves.at(cpu, e, S::strain(direction), z);
+    Axial { elastic, stiffness, ..axial }
+}
+
+/// Properties of the elements of a batch.
+pub(in crate::rod) struct Batch<'a, F: Real> {
+    pub cpu: F::Cpu,
+    pub rows: &'a [&'a [f64]; PROPERTIES],
+    pub e: usize,
 }
 
 impl<F: Real> Batch<'_, F> {
     #[inline(always)]
-    fn get(&self, property: Property) -> F {
+    pub fn get(&self, property: Property) -> F {
         F::load(self.cpu, self.rows[property as usize], self.e)
     }
 
     #[inline(always)]
-    fn axial(&self) -> Axial<F> {
+    pub fn axial(&self) -> Axial<F> {
         Axial {
             ea: self.get(Property::Ea),
             damping: self.get(Property::Damping),
             floor: self.get(Property::Floor),
             friction: self.get(Property::Friction),
+            elastic: F::splat(self.cpu, 0.0),
+            stiffness: F::splat(self.cpu, 0.0),
         }
     }
 
     #[inline(always)]
-    fn coefficients(&self) -> Coefficients<F> {
+    pub fn coefficients(&self) -> Coefficients<F> {
         Coefficients {
             drag_normal: self.get(Property::DragNormal),
             drag_tangential: self.get(Property::DragTangential),
             added_normal: self.get(Property::AddedNormal),
             added_tangential: self.get(Property::AddedTangential),
+            buoyancy: self.get(Property::Buoyancy),
         }
     }
 }
@@ -199,7 +232,8 @@ pub struct Ends<F> {
 impl Ends<f64> {
     /// Element `e`, of length `length`.
     pub fn gather(field: &Field, e: usize, length: f64) -> Ends<f64> {
-        Ends::load((), &field.rows(), e, length)
+        let (at, slope) = (|node| Triple::from(field.position(node)), |node| Triple::from(field.slope(node)) * length);
+        Ends { a: at(e), da: slope(e), b: at(e + 1), db: slope(e + 1) }
     }
 
     /// Component along a vector as a cubic.
@@ -216,25 +250,20 @@ impl Ends<f64> {
 impl<F: Real> Ends<F> {
     /// Elements from `e` on, of lengths `length`.
     #[inline(always)]
-    fn load(cpu: F::Cpu, rows: &[&[f64]; COMPONENTS], e: usize, length: F) -> Ends<F> {
-        let triple = |c: usize, n: usize| Triple {
-            x: F::load(cpu, rows[c], n),
-            y: F::load(cpu, rows[c + 1], n),
-            z: F::load(cpu, rows[c + 2], n),
-        };
-        Ends { a: triple(0, e), da: triple(3, e) * length, b: triple(0, e + 1), db: triple(3, e + 1) * length }
+    pub fn load(cpu: F::Cpu, rows: &[&[f64]; COMPONENTS], e: usize, length: F) -> Ends<F> {
+        let [x, y, z, px, py, pz] = rows;
+        Ends {
+            a: Triple::load(cpu, [x, y, z], e),
+            da: Triple::load(cpu, [px, py, pz], e) * length,
+            b: Triple::load(cpu, [x, y, z], e + 1),
+            db: Triple::load(cpu, [px, py, pz], e + 1) * length,
+        }
     }
 
     /// Value where the shape functions are `n` (unit length).
     #[inline(always)]
     pub fn combine(&self, n: &[f64; 4]) -> Triple<F> {
         self.a.scale_add(n[0], self.da.scale_add(n[1], self.b.scale_add(n[2], self.db.scale(n[3]))))
-    }
-
-    /// Height (third component) where the shape functions are `n`.
-    #[inline(always)]
-    pub fn combine_z(&self, n: &[f64; 4]) -> F {
-        self.a.z.scale_add(n[0], self.da.z.scale_add(n[1], self.b.z.scale_add(n[2], self.db.z * n[3])))
     }
 
     /// Bézier control values of the component along a vector: the curve lies between the least and the greatest of them.
@@ -247,7 +276,7 @@ impl<F: Real> Ends<F> {
 
     /// 1 where the element is certainly below the waterline, else 0.
     #[inline(always)]
-    fn wet(&self, waterline: F) -> F {
+    pub fn wet(&self, waterline: F) -> F {
         let third = 1.0 / 3.0;
         let top = self.a.z.max(self.b.z).max(self.da.z.scale_add(third, self.a.z)).max(self.db.z.scale_add(-third, self.b.z));
         (waterline - top).step()
@@ -272,18 +301,29 @@ pub struct Acting<F> {
 }
 
 /// Everything that the loop over the elements reads.
-struct Source<'a, W> {
-    table: [&'a [f64]; PROPERTIES],
-    water: &'a W,
+pub(in crate::rod) struct Source<'a, W> {
+    pub clock: Clock,
+    pub curves: &'a Curves,
+    pub table: [&'a [f64]; PROPERTIES],
+    pub water: &'a W,
     bed: Option<&'a Bed>,
-    u: [&'a [f64]; COMPONENTS],
-    v: [&'a [f64]; COMPONENTS],
-    a: [&'a [f64]; COMPONENTS],
+    pub u: [&'a [f64]; COMPONENTS],
+    pub v: [&'a [f64]; COMPONENTS],
+    pub a: [&'a [f64]; COMPONENTS],
 }
 
 impl<'a, W> Source<'a, W> {
-    fn new(table: &'a Table, water: &'a W, bed: Option<&'a Bed>, at: &'a Motion) -> Self {
-        Source { table: table.rows(), water, bed, u: at.u.rows(), v: at.v.rows(), a: at.a.rows() }
+    pub fn new(table: &'a Table, water: &'a W, bed: Option<&'a Bed>, at: &'a Motion) -> Self {
+        Source {
+            clock: at.clock,
+            curves: &table.curves,
+            table: table.rows(),
+            water,
+            bed,
+            u: at.u.rows(),
+            v: at.v.rows(),
+            a: at.a.rows(),
+        }
     }
 }
 
@@ -306,8 +346,9 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
         (table.get(Property::Length), table.get(Property::PerLength), table.get(Property::Measure));
     let (mass, axial) = (table.get(Property::Mass), table.axial());
     let (ei, coefficients) = (table.get(Property::Ei), table.coefficients());
-    let load = |rows| Ends::<F>::load(cpu, rows, e, length);
-    let (u, v, a) = (load(&source.u), load(&source.v), load(&source.a));
+    let u = Ends::load(cpu, &source.u, e, length);
+    let v = Ends::load(cpu, &source.v, e, length);
+    let a = Ends::load(cpu, &source.a, e, length);
     let wet = u.wet(table.get(Property::Waterline));
     let weight = table.get(Property::WeightInAir) - table.get(Property::Buoyancy) * wet;
     let mut sum = [Triple::zero(cpu); 4];
@@ -316,12 +357,13 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
         let rate = v.combine(&shape.slope) * per_length;
         let acceleration = a.combine(&shape.value);
         let w = measure * gauss.weight;
+        let axial = with_curve::<F, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
         let n = S::force(cpu, &axial, &direction, rate) * (per_length * w);
         let mut x = acceleration * mass;
         x.z = x.z + weight;
         if W::PRESENT {
             let velocity = v.combine(&shape.value);
-            let point = PointMotion { direction, height: u.combine_z(&shape.value), velocity, acceleration };
+            let point = PointMotion { clock: source.clock, direction, place: u.combine(&shape.value), velocity, acceleration };
             x = morison::force(cpu, source.water, &coefficients, &point).mul_add(-wet, x);
         }
         let x = x * w;
@@ -388,6 +430,53 @@ impl<S: Stretch, W: Water, B: Bending, P: FnMut(usize, bool, bool, &mut Field)> 
     }
 }
 
+/// Forces on the last end of every element [N], and on the first end of the first; `partly` as for the residual, to be added to them.
+pub fn end_forces<S: Stretch, W: Water, B: Bending>(
+    table: &Table,
+    water: &W,
+    bed: Option<&Bed>,
+    motion: &Motion,
+    out: &mut [Vector3<f64>],
+    partly: impl FnMut(usize, bool, bool, &mut [Vector3<f64>]),
+) {
+    let source = Source::new(table, water, bed, motion);
+    table.processor.dispatch(EndForces::<S, W, B, _> { table, source, out, partly, laws: PhantomData });
+}
+
+struct EndForces<'a, S, W, B, P> {
+    table: &'a Table,
+    source: Source<'a, W>,
+    out: &'a mut [Vector3<f64>],
+    partly: P,
+    laws: PhantomData<(S, B)>,
+}
+
+impl<S: Stretch, W: Water, B: Bending, P: FnMut(usize, bool, bool, &mut [Vector3<f64>])> WithSimd for EndForces<'_, S, W, B, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(mut self, cpu: V) {
+        let mut rows = [[0.0; MOST_LANES]; 8];
+        for e in (0..self.table.len()).step_by(V::F64_LANES) {
+            let acting = batch_forces::<Lanes<V>, S, W, B>(cpu, &self.source, e);
+            let ([x, y, z], first) = (acting.ends[2].components(), acting.ends[0].components());
+            for (row, lanes) in rows.iter_mut().zip([x, y, z, first[0], first[1], first[2], acting.touching, acting.dry]) {
+                lanes.store(row, 0);
+            }
+            if e == 0 {
+                self.out[0] = Vector3::new(rows[3][0], rows[4][0], rows[5][0]);
+            }
+            for lane in (0..V::F64_LANES).filter(|lane| e + lane < self.table.len()) {
+                self.out[e + lane + 1] = Vector3::new(rows[0][lane], rows[1][lane], rows[2][lane]);
+                let (touching, dry) = (rows[6][lane] > 0.0, rows[7][lane] > 0.0);
+                if touching || dry {
+                    (self.partly)(e + lane, touching, dry, self.out);
+                }
+            }
+        }
+    }
+}
+
 /// Adds what acts on the ends of element `e` (forces, and moments for slopes times length) to the nodes.
 pub fn scatter_to_nodes(out: &mut Field, e: usize, length: f64, sum: &[Triple<f64>; 4]) {
     add_to_nodes((), out, e, length, sum);
@@ -406,145 +495,6 @@ fn add_to_nodes<F: Real>(cpu: F::Cpu, out: &mut Field, e: usize, length: F, sum:
         b[c].add_to(cpu, data, c * stride + e + 1);
         db[c].add_to(cpu, data, (c + 3) * stride + e + 1);
     }
-}
-
-/// Tangent of the loads at one point, already weighted: δX = inertial·δr + turning·δr′, δn = axial·δr′, δ(EI r″) = bending·δr″.
-#[derive(Debug, Clone, Copy)]
-pub struct PointTangent {
-    /// Change of X with position, velocity and acceleration.
-    pub load: Matrix3<f64>,
-    /// Change of X with the slope.
-    pub turning: Matrix3<f64>,
-    /// Change of n with the slope and its rate.
-    pub axial: Matrix3<f64>,
-    /// EI c_u.
-    pub bending: f64,
-}
-
-impl PointTangent {
-    /// A tangent of loads only.
-    pub fn of_load(load: Matrix3<f64>, turning: Matrix3<f64>) -> PointTangent {
-        PointTangent { load, turning, axial: Matrix3::zeros(), bending: 0.0 }
-    }
-}
-
-/// Tangent of one element, 4×4 blocks by columns of three: [l][k] couples end value k with end value l.
-#[derive(Debug, Clone)]
-pub struct ElementTangent([[[f64; 9]; 4]; 4]);
-
-impl ElementTangent {
-    /// Zero.
-    pub fn zero() -> ElementTangent {
-        ElementTangent([[[0.0; 9]; 4]; 4])
-    }
-
-    /// Adds `scale` times the tangent at a point where the shape is `shape` (scaled to the length).
-    pub fn add(&mut self, shape: &Shape, scale: f64, point: &PointTangent) {
-        let [load, turning, axial] = [&point.load, &point.turning, &point.axial].map(entries);
-        for l in 0..4 {
-            let (value, slope) = (scale * shape.value[l], scale * shape.slope[l]);
-            let loads: [f64; 9] = std::array::from_fn(|i| load[i] * value + turning[i] * slope);
-            let axials: [f64; 9] = std::array::from_fn(|i| axial[i] * slope);
-            for k in 0..4 {
-                let block = &mut self.0[l][k];
-                for i in 0..9 {
-                    block[i] += loads[i] * shape.value[k] + axials[i] * shape.slope[k];
-                }
-                if point.bending != 0.0 {
-                    let bending = scale * point.bending * shape.curvature[k] * shape.curvature[l];
-                    [0, 4, 8].into_iter().for_each(|i| block[i] += bending);
-                }
-            }
-        }
-    }
-
-    /// Adds products[k][l] times one matrix to block (k, l).
-    pub fn add_products(&mut self, products: &[[f64; 4]; 4], matrix: &Matrix3<f64>) {
-        let matrix = entries(matrix);
-        for l in 0..4 {
-            for k in 0..4 {
-                (0..9).for_each(|i| self.0[l][k][i] += matrix[i] * products[k][l]);
-            }
-        }
-    }
-
-    /// Adds the tangent of element `e` to the matrix.
-    pub fn add_to(&self, matrix: &mut BlockTridiagonal<6>, e: usize) {
-        for l in 0..4 {
-            for k in 0..4 {
-                let target = match (k / 2, l / 2) {
-                    (0, 0) => &mut matrix.diagonal[e],
-                    (1, 1) => &mut matrix.diagonal[e + 1],
-                    (0, _) => &mut matrix.upper[e],
-                    _ => &mut matrix.lower[e],
-                };
-                let mut view = target.fixed_view_mut::<3, 3>(3 * (k % 2), 3 * (l % 2));
-                view += Matrix3::from_column_slice(&self.0[l][k]);
-            }
-        }
-    }
-}
-
-fn entries(m: &Matrix3<f64>) -> [f64; 9] {
-    std::array::from_fn(|i| m.as_slice()[i])
-}
-
-/// Adds the tangent of every element to the matrix. `geometric[3e + g]`, where given, is the tension of the geometric part.
-pub fn tangent<S: Stretch, W: Water, B: Bending>(
-    table: &Table,
-    water: &W,
-    at: &Motion,
-    weights: &Weights,
-    geometric: Option<&[f64]>,
-    matrix: &mut BlockTridiagonal<6>,
-) {
-    for e in 0..table.len() {
-        if table.is_joint(e) {
-            continue;
-        }
-        let length = table.length_of(e);
-        let (u, v, a) = (Ends::gather(at.u, e, length), Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-        let (axial, coefficients) = (table.axial(e), table.coefficients(e));
-        let wet = u.wet(table.get(Property::Waterline, e));
-        let (mass, ei) = (table.get(Property::Mass, e), table.get(Property::Ei, e));
-        let mut sum = ElementTangent::zero();
-        for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {
-            let direction = Direction::of(u.combine(&shape.slope).scale(1.0 / length));
-            let rate = Vector3::from(v.combine(&shape.slope)) / length;
-            let stretch = S::tangent(&axial, &direction.slope.into(), &rate, geometric.map(|tension| tension[3 * e + g]));
-            let mut point = PointTangent {
-                load: Matrix3::identity() * (weights.a * mass),
-                turning: Matrix3::zeros(),
-                axial: stretch.by_slope * weights.u + stretch.by_rate * weights.v,
-                bending: if B::PRESENT { weights.u * ei } else { 0.0 },
-            };
-            if W::PRESENT {
-                let motion = PointMotion {
-                    direction,
-                    height: u.combine_z(&shape.value),
-                    velocity: v.combine(&shape.value),
-                    acceleration: a.combine(&shape.value),
-                };
-                let (load, turning) = water_tangent(water, &coefficients, &motion, weights);
-                point.load -= load * wet;
-                point.turning -= turning * wet;
-            }
-            sum.add(&shape.scaled(length), gauss.weight * length, &point);
-        }
-        sum.add_to(matrix, e);
-    }
-}
-
-/// Weighted tangent of the force of the water: by position, velocity and acceleration together, and by slope.
-pub fn water_tangent<W: Water>(
-    water: &W,
-    coefficients: &Coefficients<f64>,
-    at: &PointMotion<f64>,
-    weights: &Weights,
-) -> (Matrix3<f64>, Matrix3<f64>) {
-    let f = morison::tangent(water, coefficients, at);
-    let by_position = f.by_height * Vector3::z().transpose();
-    (by_position * weights.u + f.by_velocity * weights.v + f.by_acceleration * weights.a, f.by_slope * weights.u)
 }
 
 /// Adds M x to `out`: mass and added mass of every element, as if all were under water.
@@ -593,16 +543,16 @@ impl<W: Water> WithSimd for Inertia<'_, W> {
 
 /// Tension at the Gauss points of every element [N], three per element.
 pub fn tensions<S: Stretch>(table: &Table, u: &Field, v: &Field, out: &mut [f64]) {
-    at_points(table, u, v, S::tension, out);
+    at_points::<S>(table, u, v, S::tension, out);
 }
 
 /// Tension at the Gauss points after a change of u, to first order in the change [N]: what the mixed method would carry on.
 pub fn linear_tensions<S: Stretch>(table: &Table, u: &Field, change: &Field, out: &mut [f64]) {
-    at_points(table, u, change, S::linear_tension, out);
+    at_points::<S>(table, u, change, S::linear_tension, out);
 }
 
 /// A law of the slopes of two fields at the Gauss points of every element, three per element.
-fn at_points(
+fn at_points<S: Stretch>(
     table: &Table,
     u: &Field,
     other: &Field,
@@ -614,7 +564,8 @@ fn at_points(
         let (ends, others) = (Ends::gather(u, e, length), Ends::gather(other, e, length));
         for (g, shape) in SHAPES3.iter().enumerate() {
             let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
-            out[3 * e + g] = law(&table.axial(e), &slope(&ends), &slope(&others));
+            let (p, z) = (slope(&ends), ends.combine(&shape.value).z);
+            out[3 * e + g] = law(&table.axial::<S>(e, p, z), &p, &slope(&others));
         }
     }
 }

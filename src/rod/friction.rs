@@ -38,6 +38,8 @@ struct Grip {
     stiffness: f64,
     /// k_t for which r_h is kept [Pa].
     kept: f64,
+    /// δ [m].
+    breakaway: f64,
 }
 
 /// Friction on a line.
@@ -76,8 +78,9 @@ impl Friction {
         let along_x = (Vector3::x() - plane.normal * plane.normal.x).normalize();
         let grip = |e: usize| {
             let properties = mesh.properties_of(e);
-            let stiffness = coefficient * properties.sinking_weight() / (BREAKAWAY * properties.diameter);
-            Grip { stiffness, kept: stiffness }
+            let breakaway = BREAKAWAY * properties.diameter;
+            let stiffness = coefficient * properties.sinking_weight() / breakaway;
+            Grip { stiffness, kept: stiffness, breakaway }
         };
         let grips = (0..mesh.elements.len()).map(grip).collect();
         Friction { coefficient: (1.0 + MARGIN) * coefficient, axes: [along_x, plane.normal.cross(&along_x)], grips }
@@ -90,6 +93,11 @@ impl Friction {
             grip.stiffness = mesh.properties_of(e).ea / (BLUR * mesh.elements[e].length).powi(2);
         }
         self
+    }
+
+    /// δ of the thinnest element [m].
+    pub fn breakaway(&self) -> f64 {
+        self.grips.iter().map(|grip| grip.breakaway).fold(f64::INFINITY, f64::min)
     }
 
     /// A vector along the axes of the bed.

@@ -5,7 +5,10 @@
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
 use crate::rod::bending::Bending;
+use crate::rod::body::Body;
 use crate::rod::element::{self, Motion, Table, Weights};
+use crate::rod::element_tangent;
+use crate::rod::hold::Hold;
 use crate::rod::joint;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
@@ -23,6 +26,14 @@ pub trait Line: Send + Sync {
     fn mesh(&self) -> &Mesh;
     /// Unknowns that are prescribed, as (node, component).
     fn fixed(&self) -> &[(usize, usize)];
+    /// Whether a node is pinned, by prescribed components of its position.
+    fn is_pinned(&self, node: usize) -> bool {
+        (0..3).all(|c| self.fixed().contains(&(node, c)))
+    }
+    /// Sets positions (order 0), velocities (1) or accelerations (2) of nodes along locked axes to what they are held to at a time.
+    fn place(&self, order: usize, field: &mut Field, time: f64);
+    /// Weight of what hangs on the line, and dead forces at its nodes [N]: sizes of forces, for comparison.
+    fn burden(&self) -> f64;
     /// Residual R [N, N·m]: the force to be applied from outside for this motion. At tied nodes it stands at the second.
     fn residual(&self, at: &Motion, out: &mut Field);
     /// c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a. `geometric`, where given, is the tension of the geometric part at each Gauss point [N].
@@ -66,8 +77,7 @@ pub struct Rod<S, W, B> {
     joints: Vec<usize>,
     /// Joints that transmit a moment, and their rotational stiffness [N·m].
     stiff_joints: Vec<(usize, f64)>,
-    fixed: Vec<(usize, usize)>,
-    loads: Vec<(usize, Vector3<f64>)>,
+    supports: Supports,
     laws: PhantomData<(S, B)>,
 }
 
@@ -78,25 +88,20 @@ pub struct Supports {
     pub fixed: Vec<(usize, usize)>,
     /// Dead forces on nodes [N].
     pub loads: Vec<(usize, Vector3<f64>)>,
-}
-
-impl Supports {
-    /// Both ends pinned, as in a scene.
-    pub fn pinned(mesh: &Mesh) -> Supports {
-        let last = mesh.nodes() - 1;
-        Supports { fixed: [0, last].into_iter().flat_map(|node| (0..3).map(move |c| (node, c))).collect(), loads: Vec::new() }
-    }
+    /// Bodies on nodes.
+    pub bodies: Vec<Body>,
+    /// Springs, dampers, locks and dead forces at nodes.
+    pub holds: Vec<Hold>,
 }
 
 impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
-        let table = Table::new(&mesh, surface.is_some());
+        let table = Table::new(&mesh, surface.as_ref().map(|_| water.lowest_surface()));
         let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance, ground.friction.is_some()));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
-        let Supports { fixed, loads } = supports;
-        Rod { mesh, table, water, ground, bed, surface, joints, stiff_joints, fixed, loads, laws: PhantomData }
+        Rod { mesh, table, water, ground, bed, surface, joints, stiff_joints, supports, laws: PhantomData }
     }
 
     /// Forces on tied nodes, which have one position, go to the second of them.
@@ -105,6 +110,11 @@ impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
             out.set_position(e + 1, &(out.position(e + 1) + out.position(e)));
             out.set_position(e, &Vector3::zeros());
         }
+    }
+
+    /// Takes the reactions of locks out of the residual.
+    fn project(&self, out: &mut Field) {
+        self.supports.holds.iter().filter(|hold| hold.locks()).for_each(|hold| hold.project(out));
     }
 
     /// What a bed that touches in part and a surface above some of it add to the forces on the ends of element `e`.
@@ -131,7 +141,17 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
     }
 
     fn fixed(&self) -> &[(usize, usize)] {
-        &self.fixed
+        &self.supports.fixed
+    }
+
+    fn place(&self, order: usize, field: &mut Field, time: f64) {
+        self.supports.holds.iter().filter(|hold| hold.locks()).for_each(|hold| hold.place(order, field, time));
+    }
+
+    fn burden(&self) -> f64 {
+        let Supports { loads, bodies, holds, .. } = &self.supports;
+        let dead = loads.iter().map(|(_, force)| force.norm()).chain(holds.iter().map(|hold| hold.force.norm()));
+        dead.chain(bodies.iter().map(|body| body.net_weight().abs().max(0.1 * body.weight))).sum()
     }
 
     fn residual(&self, at: &Motion, out: &mut Field) {
@@ -147,15 +167,22 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
             out.set_slope(e, &(out.slope(e) + joint::moment(kappa, &p, &q)));
             out.set_slope(e + 1, &(out.slope(e + 1) + joint::moment(kappa, &q, &p)));
         }
-        for (node, force) in &self.loads {
+        for (node, force) in &self.supports.loads {
             out.set_position(*node, &(out.position(*node) - force));
         }
+        for body in &self.supports.bodies {
+            out.set_position(body.node, &(out.position(body.node) + body.force(&self.water, at)));
+        }
+        for hold in &self.supports.holds {
+            out.set_position(hold.node, &(out.position(hold.node) + hold.force(at)));
+        }
         self.share_ties(out);
+        self.project(out);
     }
 
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
         matrix.clear();
-        element::tangent::<S, W, B>(&self.table, &self.water, at, weights, geometric, matrix);
+        element_tangent::tangent::<S, W, B>(&self.table, &self.water, at, weights, geometric, matrix);
         for e in 0..self.table.len() {
             if let Some(ground) = &self.ground {
                 ground.tangent(&self.table, at, e, weights, matrix);
@@ -172,12 +199,24 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
             matrix.upper[e].fixed_view_mut::<3, 3>(3, 3).add_assign(across * weights.u);
             matrix.lower[e].fixed_view_mut::<3, 3>(3, 3).add_assign(across.transpose() * weights.u);
         }
+        for body in &self.supports.bodies {
+            let own = body.tangent(&self.water, at, weights);
+            matrix.diagonal[body.node].fixed_view_mut::<3, 3>(0, 0).add_assign(own);
+        }
+        for hold in &self.supports.holds {
+            matrix.diagonal[hold.node].fixed_view_mut::<3, 3>(0, 0).add_assign(hold.tangent(weights));
+        }
+        self.supports.holds.iter().filter(|hold| hold.locks()).for_each(|hold| hold.project_matrix(matrix));
     }
 
     fn inertia(&self, at: &Motion, x: &Field, out: &mut Field) {
         out.fill(0.0);
         element::inertia::<W>(&self.table, at.u, x, out);
+        for body in &self.supports.bodies {
+            out.set_position(body.node, &(out.position(body.node) + x.position(body.node) * body.inertia()));
+        }
         self.share_ties(out);
+        self.project(out);
     }
 
     fn linear_tensions(&self, u: &Field, change: &Field, out: &mut [f64]) {
@@ -189,12 +228,19 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
     }
 
     fn node_forces(&self, at: &Motion, out: &mut [Vector3<f64>]) {
-        for e in 0..self.table.len() {
-            let sum = self.element_forces(at, e);
-            if e == 0 {
-                out[0] = (-sum[0]).into();
+        let partly = |e: usize, touching: bool, dry: bool, out: &mut [Vector3<f64>]| {
+            for part in self.partial_forces(at, e, touching, dry).into_iter().flatten() {
+                out[e + 1] += Vector3::from(part[2]);
+                if e == 0 {
+                    out[0] += Vector3::from(part[0]);
+                }
             }
-            out[e + 1] = if self.table.is_joint(e) { out[e] } else { sum[2].into() };
+        };
+        element::end_forces::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        out[0] = -out[0];
+        for &e in &self.joints {
+            let acted_on = self.mesh.points.contains(&e);
+            out[e + 1] = if acted_on { (-self.element_forces(at, e + 1)[0]).into() } else { out[e] };
         }
     }
 

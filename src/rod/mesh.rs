@@ -1,8 +1,10 @@
 //! The elements of a line, from the anchor to the fairlead.
 //!
-//! Where the axial or bending stiffness jumps between two sections, the slope must be free to jump too: there the mesh has two
-//! nodes at one position with a slope each, and between them a *joint*, an element without length that carries no load.
+//! Where the axial or bending stiffness jumps between two sections, or something acts on a point of the line, the slope must be free
+//! to jump too: there the mesh has two nodes at one position with a slope each, and between them a *joint*, an element without
+//! length that carries no load.
 
+use crate::rod::elasticity::{Elasticity, Pressures};
 use crate::scene::types::{Environment, Line, LineType, Scene};
 use std::collections::BTreeMap;
 
@@ -33,6 +35,21 @@ pub struct Mesh {
     pub sections: Vec<Properties>,
     /// Unstretched length [m].
     pub length: f64,
+    /// What the tension of each section depends on besides EA; empty: on nothing else.
+    pub elasticities: Vec<Elasticity>,
+    /// Joints, by element, at which something acts on the line.
+    pub points: Vec<usize>,
+}
+
+/// A stretch of one material that is meshed by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Its material.
+    pub properties: Properties,
+    /// Element lengths from the anchor side [m].
+    pub lengths: Vec<f64>,
+    /// Something acts where it meets the part before.
+    pub after_point: bool,
 }
 
 /// What an element is made of, per unstretched length.
@@ -60,6 +77,8 @@ pub struct Properties {
     pub added_normal: f64,
     /// ρ (π/4) d² Cmt [kg/m].
     pub added_tangential: f64,
+    /// Stiffness of the bed under it [Pa]; none: the environment's.
+    pub seabed_stiffness: Option<f64>,
 }
 
 impl Properties {
@@ -67,18 +86,20 @@ impl Properties {
     pub fn of(line_type: &LineType, environment: &Environment) -> Properties {
         let (rho, g, d) = (environment.water_density, environment.gravity, line_type.diameter);
         let area = std::f64::consts::FRAC_PI_4 * d * d;
+        let contents = line_type.inner_fluid.as_ref().map_or(0.0, |fluid| fluid.density * fluid.area);
         Properties {
             ea: line_type.ea,
             ei: line_type.ei,
             damping: line_type.damping,
-            mass: line_type.mass,
-            weight_in_air: line_type.mass * g,
-            weight: line_type.weight_in_water(rho, g),
+            mass: line_type.mass + contents,
+            weight_in_air: (line_type.mass + contents) * g,
+            weight: line_type.weight_in_water(rho, g) + contents * g,
             diameter: d,
             drag_normal: 0.5 * rho * d * line_type.drag.normal,
             drag_tangential: 0.5 * rho * std::f64::consts::PI * d * line_type.drag.tangential,
             added_normal: rho * area * line_type.added_mass.normal,
             added_tangential: rho * area * line_type.added_mass.tangential,
+            seabed_stiffness: line_type.seabed_stiffness,
         }
     }
 
@@ -106,18 +127,30 @@ impl Properties {
 impl Mesh {
     /// The mesh with given element lengths for each section, sections and elements counted from the anchor.
     pub fn new(sections: Vec<Properties>, lengths: &[Vec<f64>]) -> Mesh {
-        let mut elements = Vec::new();
-        let mut start = 0.0;
-        for (section, lengths) in lengths.iter().enumerate() {
-            if section > 0 && sections[section - 1].joins_with_a_kink(&sections[section]) {
-                elements.push(Element { start, length: 0.0, section });
+        let part =
+            |(properties, lengths): (Properties, &Vec<f64>)| Part { properties, lengths: lengths.clone(), after_point: false };
+        Mesh::of_parts(sections.into_iter().zip(lengths).map(part).collect())
+    }
+
+    /// The mesh of parts, counted from the anchor.
+    pub fn of_parts(parts: Vec<Part>) -> Mesh {
+        let mut mesh =
+            Mesh { elements: Vec::new(), sections: Vec::new(), length: 0.0, elasticities: Vec::new(), points: Vec::new() };
+        for (section, Part { properties, lengths, after_point }) in parts.into_iter().enumerate() {
+            let kink = mesh.sections.last().is_some_and(|before| before.joins_with_a_kink(&properties));
+            if section > 0 && (after_point || kink) {
+                if after_point {
+                    mesh.points.push(mesh.elements.len());
+                }
+                mesh.elements.push(Element { start: mesh.length, length: 0.0, section });
             }
-            for &length in lengths {
-                elements.push(Element { start, length, section });
-                start += length;
+            for length in lengths {
+                mesh.elements.push(Element { start: mesh.length, length, section });
+                mesh.length += length;
             }
+            mesh.sections.push(properties);
         }
-        Mesh { elements, sections, length: start }
+        mesh
     }
 
     /// Properties of the sections of a line of a scene, from the anchor. Sections of unknown type have been refused by the check.
@@ -125,6 +158,26 @@ impl Mesh {
         let types: &BTreeMap<String, LineType> = &scene.line_types;
         let of = |name: &String| types.get(name).map(|line_type| Properties::of(line_type, &scene.environment));
         line.sections.iter().rev().filter_map(|section| of(&section.line_type)).collect()
+    }
+
+    /// What the tensions of the sections of a line depend on besides EA, from the anchor; empty if on nothing else.
+    pub fn elasticities(scene: &Scene, line: &Line) -> Vec<Elasticity> {
+        let strained = scene.solver.hydrostatic_strain;
+        let of = |line_type: &LineType| Elasticity {
+            table: line_type.tension_strain.clone(),
+            pressures: (strained || line_type.inner_fluid.is_some())
+                .then(|| Pressures::of(line_type, &scene.environment, line.fairlead[2])),
+            strained,
+        };
+        let types = line.sections.iter().rev().filter_map(|section| scene.line_types.get(&section.line_type));
+        let all: Vec<Elasticity> = types.map(of).collect();
+        if all.iter().any(|elasticity| *elasticity != Elasticity::default()) { all } else { Vec::new() }
+    }
+
+    /// What the tension of an element depends on besides EA.
+    pub fn elasticity_of(&self, element: usize) -> &Elasticity {
+        const NONE: &Elasticity = &Elasticity { table: None, pressures: None, strained: false };
+        self.elasticities.get(self.elements[element].section).unwrap_or(NONE)
     }
 
     /// Number of nodes.
@@ -140,6 +193,14 @@ impl Mesh {
     /// Arc length of a node from the anchor [m].
     pub fn node_arc_length(&self, node: usize) -> f64 {
         self.elements.get(node).map_or(self.length, |element| element.start)
+    }
+
+    /// The nodes nearest to an arc length from the anchor: one, or the two beside a joint, as first and last.
+    pub fn nodes_at(&self, s: f64) -> (usize, usize) {
+        let away = |node: usize| (self.node_arc_length(node) - s).abs();
+        let nearest = (1..self.nodes()).fold(0, |best, node| if away(node) < away(best) { node } else { best });
+        let tied = self.elements.get(nearest).is_some_and(Element::is_joint);
+        (nearest, nearest + usize::from(tied))
     }
 
     /// Properties of an element.

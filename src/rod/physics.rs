@@ -3,16 +3,21 @@
 //! A ladder of small functions: each decides one thing from the scene and hands a type on. What a scene does not need is not
 //! compiled into its loop.
 
+use crate::algebra::sinusoid::Sinusoid;
 use crate::rod::bending::{Bending, Flexible, Stiff};
+use crate::rod::body::Body;
+use crate::rod::elasticity::{Elasticity, Hooke, Tabulated};
 use crate::rod::friction::Friction;
+use crate::rod::hold::{self, Hold};
 use crate::rod::line::{Line, Rod, Supports};
 use crate::rod::mesh::Mesh;
-use crate::rod::morison::{NoWater, Still, Water};
+use crate::rod::morison::{NoWater, Sea, Still, Water};
 use crate::rod::seabed::{Plane, Resistance};
 use crate::rod::stretch::{Exact, Report, Stretch};
 use crate::rod::touching::{Ground, Surface};
 use crate::scene::types::{self, Environment, Scene};
 use crate::sea::current::Current;
+use crate::sea::waves::Waves;
 
 /// Surroundings of a line, decided once.
 #[derive(Debug, Clone)]
@@ -21,6 +26,8 @@ pub struct Surroundings {
     pub stretch: types::Stretch,
     /// The current; still water is none.
     pub current: Option<Current>,
+    /// The waves.
+    pub waves: Option<Waves>,
     /// The bed.
     pub ground: Option<Ground>,
     /// The water surface, where it is pierced.
@@ -45,6 +52,7 @@ impl Surroundings {
         Surroundings {
             stretch: scene.solver.stretch,
             current: (!current.is_still()).then_some(current),
+            waves: Waves::of(&scene.environment),
             ground: Some(ground(&scene.environment, mesh)),
             surface: (scene.environment.surface == types::Surface::Pierced).then(|| Surface::new(mesh)),
         }
@@ -57,6 +65,11 @@ impl Surroundings {
         Surroundings { ground: self.ground.clone().map(|ground| Ground { friction: None, ..ground }), ..self.clone() }
     }
 
+    /// Displacement at which friction breaks away [m], where there is any.
+    pub fn breakaway(&self) -> Option<f64> {
+        Some(self.ground.as_ref()?.friction.as_ref()?.breakaway())
+    }
+
     /// The same with the friction of statics on a mesh.
     pub fn laid(&self, mesh: &Mesh) -> Surroundings {
         let laid = |ground: Ground| Ground { friction: ground.friction.map(|friction| friction.laid(mesh)), ..ground };
@@ -66,9 +79,13 @@ impl Surroundings {
 
 /// The line of a mesh with the physics that it needs.
 pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
-    match surroundings.stretch {
-        types::Stretch::Exact => with_bending::<Exact>(mesh, surroundings, supports),
-        types::Stretch::Report => with_bending::<Report>(mesh, surroundings, supports),
+    let special = mesh.elasticities.iter().any(Elasticity::is_special);
+    // Lines with tables or pressures are few: they carry the terms of bending whether they need them or not.
+    match (surroundings.stretch, special) {
+        (types::Stretch::Exact, false) => with_bending::<Exact<Hooke>>(mesh, surroundings, supports),
+        (types::Stretch::Report, false) => with_bending::<Report<Hooke>>(mesh, surroundings, supports),
+        (types::Stretch::Exact, true) => with_water::<Exact<Tabulated>, Stiff>(mesh, surroundings, supports),
+        (types::Stretch::Report, true) => with_water::<Report<Tabulated>, Stiff>(mesh, surroundings, supports),
     }
 }
 
@@ -81,7 +98,10 @@ fn with_bending<S: Stretch>(mesh: Mesh, surroundings: Surroundings, supports: Su
 }
 
 fn with_water<S: Stretch, B: Bending>(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
-    if !feels_water(&mesh) {
+    if let Some(waves) = surroundings.waves.clone() {
+        let current = surroundings.current.clone().unwrap_or_default();
+        finish::<S, Sea, B>(mesh, Sea { waves, current }, surroundings, supports)
+    } else if !feels_water(&mesh, &supports) {
         finish::<S, NoWater, B>(mesh, NoWater, surroundings, supports)
     } else if let Some(current) = surroundings.current.clone() {
         finish::<S, Current, B>(mesh, current, surroundings, supports)
@@ -94,9 +114,75 @@ fn finish<S: Stretch, W: Water, B: Bending>(mesh: Mesh, water: W, around: Surrou
     Box::new(Rod::<S, W, B>::new(mesh, water, around.ground, around.surface, supports))
 }
 
-/// Whether any section has drag or added mass.
-fn feels_water(mesh: &Mesh) -> bool {
+/// Whether any section or body has drag or added mass.
+fn feels_water(mesh: &Mesh, supports: &Supports) -> bool {
     mesh.sections.iter().any(|p| [p.drag_normal, p.drag_tangential, p.added_normal, p.added_tangential].iter().any(|c| *c > 0.0))
+        || supports.bodies.iter().any(|body| body.drag > 0.0 || body.added_mass > 0.0)
+}
+
+/// What holds and loads a line of a scene: pins at its ends unless a constraint releases them, constraints, and bodies.
+pub fn supports(scene: &Scene, line: &types::Line, mesh: &Mesh) -> Supports {
+    let last = mesh.nodes() - 1;
+    let place = |s: f64| mesh.nodes_at(mesh.length - s);
+    let mut supports = Supports::default();
+    for body in &line.attachments {
+        supports.bodies.push(body_of(&scene.environment, place(body.s).1, body));
+    }
+    for constraint in &line.constraints {
+        let (first, node) = place(constraint.s);
+        if constraint.mass > 0.0 || constraint.added_mass > 0.0 {
+            let (s, mass, added_mass) = (constraint.s, constraint.mass, constraint.added_mass);
+            let body = types::Attachment { s, mass, volume: 0.0, drag_area: 0.0, added_mass };
+            supports.bodies.push(body_of(&scene.environment, node, &body));
+        }
+        let end = line.end_at(constraint.s);
+        if end.is_none() || !constraint.is_pin() {
+            let motion = constraint.motion.as_ref();
+            supports.holds.push(Hold {
+                first,
+                node,
+                axes: hold::axes(&constraint.axes),
+                reference: constraint.reference.or(end).map(Into::into),
+                motion: motion.map(|motion| Sinusoid::new(motion.period, motion.sine, motion.cosine, motion.ramp)),
+                stiffness: constraint.stiffness.into(),
+                damping: constraint.damping.into(),
+                locked: constraint.locked,
+                force: constraint.force.into(),
+            });
+        }
+    }
+    let released = |node: usize| supports.holds.iter().any(|hold| hold.node == node);
+    supports.fixed =
+        [0, last].into_iter().filter(|node| !released(*node)).flat_map(|node| (0..3).map(move |c| (node, c))).collect();
+    supports
+}
+
+/// Density of steel [kg/m³]: a body counts as no smaller than a sphere of steel of its mass.
+const STEEL: f64 = 7850.0;
+/// Smallest diameter of a body [m].
+const SMALLEST_BODY: f64 = 0.1;
+
+fn body_of(environment: &Environment, node: usize, body: &types::Attachment) -> Body {
+    let (rho, g) = (environment.water_density, environment.gravity);
+    let volume = body.volume.max(body.mass / STEEL);
+    let diameter = (6.0 / std::f64::consts::PI * volume).cbrt().max(SMALLEST_BODY);
+    let (weight, buoyancy) = (body.mass * g, rho * g * body.volume);
+    let sinking = if weight > buoyancy { weight - buoyancy } else { weight };
+    let stiffness = (environment.seabed.stiffness.unwrap_or(0.0) * diameter).max(sinking / (0.1 * diameter));
+    let plane = Plane::of(environment);
+    let onset = (weight - buoyancy).max(0.0) * plane.normal.z / stiffness.max(f64::MIN_POSITIVE);
+    let damping = environment.seabed.damping * diameter;
+    let resistance = Resistance { stiffness, damping, onset, easing: onset.max(0.1 * diameter) };
+    Body {
+        node,
+        mass: body.mass,
+        added_mass: body.added_mass,
+        weight,
+        buoyancy,
+        drag: 0.5 * rho * body.drag_area,
+        diameter: (environment.surface == types::Surface::Pierced).then_some(diameter),
+        bed: (stiffness > 0.0).then_some((plane, resistance)),
+    }
 }
 
 /// The bed of an environment against every element of a mesh.
@@ -104,7 +190,8 @@ pub fn ground(environment: &Environment, mesh: &Mesh) -> Ground {
     let plane = Plane::of(environment);
     let resistance = (0..mesh.elements.len()).map(|e| {
         let properties = mesh.properties_of(e);
-        let stiffness = environment.seabed.stiffness.unwrap_or(properties.sinking_weight() / properties.diameter);
+        let given = properties.seabed_stiffness.or(environment.seabed.stiffness);
+        let stiffness = given.unwrap_or(properties.sinking_weight() / properties.diameter);
         let onset = properties.weight.max(0.0) * plane.normal.z / stiffness;
         Resistance { stiffness, damping: environment.seabed.damping, onset, easing: onset.max(0.1 * properties.diameter) }
     });
@@ -114,21 +201,50 @@ pub fn ground(environment: &Environment, mesh: &Mesh) -> Ground {
 }
 
 /// What is in the step of a line and why.
-pub fn decisions(scene: &Scene, mesh: &Mesh) -> Vec<Decision> {
+pub fn decisions(scene: &Scene, mesh: &Mesh, supports: &Supports) -> Vec<Decision> {
     let decide = |physics, on, yes: &str, no: &str| Decision { physics, on, reason: if on { yes } else { no }.to_string() };
     let any = |f: fn(&crate::rod::mesh::Properties) -> bool| mesh.sections.iter().any(f);
     let pierced = scene.environment.surface == types::Surface::Pierced;
     vec![
         decide("axial stretch", true, "always", ""),
+        decide(
+            "tension–strain tables",
+            scene.line_types.values().any(|line_type| line_type.tension_strain.is_some()),
+            "a line type has a table",
+            "Hooke's law with ea",
+        ),
+        decide(
+            "strain from pressure",
+            scene.solver.hydrostatic_strain,
+            "solver.hydrostatic_strain is true",
+            "strain follows from effective tension",
+        ),
         decide("axial damping", any(|p| p.damping > 0.0), "a line type has damping > 0", "damping is 0"),
         decide("bending", any(|p| p.ei > 0.0), "a line type has ei > 0", "ei is 0 everywhere: the line is flexible"),
-        decide("drag and added mass", feels_water(mesh), "a line type has coefficients > 0", "all coefficients are 0"),
+        decide(
+            "drag and added mass",
+            feels_water(mesh, supports),
+            "a line type or body has coefficients > 0",
+            "all coefficients are 0",
+        ),
         decide(
             "current",
             !Current::new(&scene.environment.current).is_still(),
             "the scene gives a profile",
             "the water stands still",
         ),
+        match Waves::of(&scene.environment) {
+            Some(waves) => {
+                let kind = if waves.components() == 1 { "1 component" } else { "components" };
+                let count = if waves.components() == 1 { String::new() } else { format!("{} ", waves.components()) };
+                let reach = match waves.floor() {
+                    floor if floor > -scene.environment.depth => format!("skipped on what lies below z = {floor:.0} m"),
+                    _ => "they reach down to the bed".to_string(),
+                };
+                Decision { physics: "waves", on: true, reason: format!("{count}{kind}; {reach}") }
+            }
+            None => decide("waves", false, "", "the scene gives none"),
+        },
         decide("seabed", true, "elements that touch it pay for it, others only for a look at their height", ""),
         decide("seabed damping", scene.environment.seabed.damping > 0.0, "seabed.damping > 0", "seabed.damping is 0"),
         decide(
@@ -138,5 +254,12 @@ pub fn decisions(scene: &Scene, mesh: &Mesh) -> Vec<Decision> {
             "seabed.friction is 0",
         ),
         decide("water surface", pierced, "surface is pierced: elements that rise above it pay for it", "surface is none"),
+        decide(
+            "bodies on the line",
+            !supports.bodies.is_empty(),
+            "the line has attachments or constraints with mass",
+            "nothing is attached",
+        ),
+        decide("constraints", !supports.holds.is_empty(), "the line has constraints", "the ends are pinned, the rest is free"),
     ]
 }

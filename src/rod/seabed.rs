@@ -103,6 +103,12 @@ pub fn projector(normal: &Vector3<f64>) -> Matrix3<f64> {
 const PRODUCTS: [[f64; 4]; 4] =
     [[156.0, 22.0, 54.0, -13.0], [22.0, 4.0, 13.0, -3.0], [54.0, 13.0, 156.0, -22.0], [-13.0, -3.0, -22.0, 4.0]];
 
+/// Tangent of the push on the ends of an element that touches an undamped bed all along, as multiples of N Nᵀ.
+pub fn grounded_tangent(stiffness: f64, length: f64) -> [[f64; 4]; 4] {
+    let lever = [1.0, length, 1.0, length];
+    std::array::from_fn(|k| std::array::from_fn(|l| stiffness * length * PRODUCTS[k][l] * lever[k] * lever[l] / 420.0))
+}
+
 /// The bed as the fast loop sees it: rows with one number per element.
 #[derive(Debug, Clone)]
 pub struct Bed {

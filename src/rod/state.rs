@@ -5,6 +5,7 @@
 //! is padded with zeros, and so is the end, so that elements can be read in batches without a look at where the line ends.
 
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, padded};
+use crate::sea::clock::Clock;
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 
@@ -12,18 +13,25 @@ use pulp::{Arch, Simd, WithSimd};
 pub const COMPONENTS: usize = 6;
 
 /// Six numbers per node, component-major.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Field {
     nodes: usize,
     stride: usize,
     data: Vec<f64>,
+    processor: Arch,
+}
+
+impl PartialEq for Field {
+    fn eq(&self, other: &Field) -> bool {
+        self.nodes == other.nodes && self.data == other.data
+    }
 }
 
 impl Field {
     /// Zeros for `nodes` nodes.
     pub fn new(nodes: usize) -> Field {
         let stride = padded(nodes);
-        Field { nodes, stride, data: vec![0.0; COMPONENTS * stride + MOST_LANES] }
+        Field { nodes, stride, data: vec![0.0; COMPONENTS * stride + MOST_LANES], processor: Arch::new() }
     }
 
     /// Number of nodes.
@@ -93,18 +101,21 @@ impl Field {
         }
     }
 
-    /// self = x + factor·y, entry by entry.
-    pub fn set_sum(&mut self, x: &Field, factor: f64, y: &Field) {
-        for ((to, x), y) in self.data.iter_mut().zip(&x.data).zip(&y.data) {
-            *to = x + factor * y;
-        }
+    /// self = Σ factor·field, entry by entry.
+    pub fn set_sum<const N: usize>(&mut self, terms: [(f64, &Field); N]) {
+        let terms = terms.map(|(factor, field)| (factor, field.data.as_slice()));
+        self.processor.dispatch(Sum { to: &mut self.data, own: false, terms });
+    }
+
+    /// self += Σ factor·field, entry by entry.
+    pub fn add_sum<const N: usize>(&mut self, terms: [(f64, &Field); N]) {
+        let terms = terms.map(|(factor, field)| (factor, field.data.as_slice()));
+        self.processor.dispatch(Sum { to: &mut self.data, own: true, terms });
     }
 
     /// self += factor·x, entry by entry.
     pub fn add(&mut self, factor: f64, x: &Field) {
-        for (to, x) in self.data.iter_mut().zip(&x.data) {
-            *to += factor * x;
-        }
+        self.add_sum([(factor, x)]);
     }
 
     /// Sum of the products, entry by entry.
@@ -124,9 +135,11 @@ impl Field {
     }
 }
 
-/// Unknowns u, their rates v = du/dt and a = dv/dt, and what friction remembers.
+/// Unknowns u, their rates v = du/dt and a = dv/dt, when they are so, and what friction remembers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
+    /// When.
+    pub clock: Clock,
     /// Positions and slopes.
     pub u: Field,
     /// Velocities.
@@ -139,13 +152,15 @@ pub struct State {
 }
 
 impl State {
-    /// A line of `nodes` nodes without friction, all zero.
+    /// A line of `nodes` nodes without friction, all zero, at time zero.
     pub fn new(nodes: usize) -> State {
-        State { u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes), holds: Field::new(0) }
+        let zero = || Field::new(nodes);
+        State { clock: Clock::default(), u: zero(), v: zero(), a: zero(), holds: Field::new(0) }
     }
 
     /// Copies the state of a line with as many nodes, without allocation.
     pub fn copy_from(&mut self, from: &State) {
+        self.clock = from.clock;
         self.u.copy_from(&from.u);
         self.v.copy_from(&from.v);
         self.a.copy_from(&from.a);
@@ -157,7 +172,29 @@ impl State {
     /// Takes `factors` (for u, v, a) times an increment away, and returns the largest entry of the increment times `scales` (for
     /// positions, slopes); NaN if any is not finite.
     pub fn retreat(&mut self, factors: [f64; 3], increment: &Field, scales: [f64; 2]) -> f64 {
-        Arch::new().dispatch(Retreat { state: self, factors, increment, scales })
+        increment.processor.dispatch(Retreat { state: self, factors, increment, scales })
+    }
+}
+
+struct Sum<'a, const N: usize> {
+    to: &'a mut [f64],
+    own: bool,
+    terms: [(f64, &'a [f64]); N],
+}
+
+impl<const N: usize> WithSimd for Sum<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        for at in (0..self.to.len()).step_by(V::F64_LANES) {
+            let zero = Lanes::splat(cpu, 0.0);
+            let mut sum = if self.own { Lanes::load(cpu, self.to, at) } else { zero };
+            for (factor, term) in self.terms {
+                sum = Lanes::load(cpu, term, at).scale_add(factor, sum);
+            }
+            sum.store(self.to, at);
+        }
     }
 }
 

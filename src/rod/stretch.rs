@@ -1,13 +1,13 @@
 //! Axial force of the line at a point, and its tangent.
 //!
 //! ```text
-//! δW = ∫ n·δr′ ds,   n = T t,   T = EA (e + C ė),   e = |r′| - 1,   t = r′/|r′|            (`Exact`, Hooke in engineering strain)
-//!                    n = λ r′,  λ = EA (g + C ġ),   g = (r′·r′ - 1)/2                       (`Report`, Ma & Webster 1994, eq. 2.11)
+//! δW = ∫ n·δr′ ds,   n = T t,   T = T(e) + EA C ė,   e = |r′| - 1,   t = r′/|r′|           (`Exact`, engineering strain)
+//!                    n = λ r′,  λ = T(g) + EA C ġ,   g = (r′·r′ - 1)/2                      (`Report`, Ma & Webster 1994, eq. 2.11)
 //! ```
 //!
 //! r′ slope by unstretched arc length [-], e strain [-], ė its rate [1/s], T effective tension [N] positive pulling, EA [N],
-//! C Kelvin–Voigt time constant [s]. A line without bending stiffness carries no compression: T ≥ 0 (`floor` = 0); the
-//! damped law with that limit is continuous and never gives energy: (T - EA max(e, 0)) ė ≥ 0.
+//! C Kelvin–Voigt time constant [s], T(e) as in `elasticity`. A line without bending stiffness carries no compression: T ≥ 0 (`floor` = 0); the
+//! damped law with that limit is continuous and never gives energy: (T - T(max(e, 0))) ė ≥ 0.
 //!
 //! An element that goes slack is bunched: its slopes have mass but no stiffness and would keep the energy of the last snap for
 //! ever. What a real line loses there in folding, a bounded friction takes up,
@@ -19,7 +19,10 @@
 //! f_s a twentieth of the element's weight in air, so that it vanishes with the mesh.
 
 use crate::algebra::lanes::{Real, Triple, length};
-use nalgebra::{Matrix3, Vector3};
+use crate::algebra::tensor::Tensor;
+use crate::rod::elasticity::Elastic;
+use nalgebra::Vector3;
+use std::marker::PhantomData;
 
 /// Axial properties of an element.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +35,20 @@ pub struct Axial<F> {
     pub floor: F,
     /// f_s, bound of the friction of a slack element [N].
     pub friction: F,
+    /// Tension at the point without damping [N], where it comes from a table or pressures.
+    pub elastic: F,
+    /// Its change with strain [N].
+    pub stiffness: F,
+}
+
+impl<F: Real> Axial<F> {
+    /// Stiffness, EA C and the tension of the geometric part, all zero where the line is slack.
+    #[inline(always)]
+    fn carried<E: Elastic>(&self, tension: F, geometric: Option<F>) -> (F, F, F) {
+        let geometric = geometric.unwrap_or(tension);
+        let on = (tension.max(geometric) - self.floor).positive();
+        (E::stiffness(self) * on, self.ea * self.damping * on, geometric.max(self.floor) * on)
+    }
 }
 
 /// e_0, slackness at which the friction is whole [-].
@@ -71,112 +88,153 @@ impl<F: Real> Direction<F> {
     }
 }
 
-/// Tangent of n_s.
-fn slack_tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> AxialTangent {
-    let stretch = length(p);
-    let bunched = ((1.0 - stretch) / BUNCHED).clamp(0.0, 1.0);
-    let by_stretch = if bunched > 0.0 && bunched < 1.0 { -1.0 / BUNCHED } else { 0.0 };
-    let speed = (rate.dot(rate) + RATE * RATE).sqrt();
-    AxialTangent {
-        by_slope: rate * p.transpose() * (law.friction * by_stretch / (speed * stretch)),
-        by_rate: (Matrix3::identity() - rate * rate.transpose() / (speed * speed)) * (law.friction * bunched / speed),
-    }
+/// How much of ∂/∂r′ and of ∂/∂ṙ′ a tangent is made of.
+#[derive(Debug, Clone, Copy)]
+pub struct By {
+    /// Factor of ∂/∂r′.
+    pub slope: f64,
+    /// Factor of ∂/∂ṙ′ [s].
+    pub rate: f64,
 }
 
-/// Tangent of the axial force: ∂n/∂r′ and ∂n/∂ṙ′ [N].
-#[derive(Debug, Clone, Copy)]
-pub struct AxialTangent {
-    /// ∂n/∂r′ [N].
-    pub by_slope: Matrix3<f64>,
-    /// ∂n/∂ṙ′ [N·s].
-    pub by_rate: Matrix3<f64>,
+/// Adds the tangent of n_s to one of n.
+#[inline(always)]
+fn with_slack_tangent<F: Real>(
+    sum: Tensor<F>,
+    cpu: F::Cpu,
+    law: &Axial<F>,
+    at: &Direction<F>,
+    rate: Triple<F>,
+    by: By,
+) -> Tensor<F> {
+    let slackness = -at.stretch + 1.0;
+    if !(slackness * law.friction).any_positive() {
+        return sum;
+    }
+    let (zero, one) = (F::splat(cpu, 0.0), F::splat(cpu, 1.0));
+    let bunched = (slackness * (1.0 / BUNCHED)).max(zero).min(one);
+    let bunching = bunched.positive() * (-bunched + 1.0).positive() * (-1.0 / BUNCHED);
+    let slowness = (rate.dot(rate) + RATE * RATE).sqrt().reciprocal();
+    let friction = law.friction * slowness;
+    let by_rate = friction * bunched * by.rate;
+    let by_slope = at.tangent * (friction * bunching * by.slope);
+    Tensor::isotropic(cpu, by_rate).add_outer(rate, by_slope - rate * (by_rate * slowness * slowness)).mul_add(one, sum)
 }
 
 /// A law of extension.
 pub trait Stretch: Copy + Send + Sync + 'static {
+    /// True: tension and stiffness of every point are looked up in tables.
+    const SPECIAL: bool;
+    /// Strain e or g [-].
+    fn strain<F: Real>(at: &Direction<F>) -> F;
     /// Axial force n [N] for a slope and its rate.
     fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F>;
-    /// Its tangent. `geometric`, where given, replaces the tension in the geometric part (mixed Newton path of statics).
-    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent;
+    /// Its tangent [N]. `geometric`, where given, replaces the tension in the geometric part (mixed Newton path of statics).
+    fn tangent<F: Real>(
+        cpu: F::Cpu,
+        law: &Axial<F>,
+        at: &Direction<F>,
+        rate: Triple<F>,
+        geometric: Option<F>,
+        by: By,
+    ) -> Tensor<F>;
     /// Signed effective tension |n| [N].
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64;
     /// Change of the tension for a change of the slope, to first order, without the limit `floor` [N].
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64;
 }
 
-/// Hooke's law in engineering strain.
+/// Tension by engineering strain.
 #[derive(Debug, Clone, Copy)]
-pub struct Exact;
+pub struct Exact<E>(PhantomData<E>);
 
-impl Stretch for Exact {
+impl<E: Elastic> Stretch for Exact<E> {
+    const SPECIAL: bool = E::SPECIAL;
+
+    #[inline(always)]
+    fn strain<F: Real>(at: &Direction<F>) -> F {
+        at.stretch + -1.0
+    }
+
     #[inline(always)]
     fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F> {
-        let strain = at.stretch + -1.0;
-        let tension = law.ea * law.damping.mul_add(at.tangent.dot(rate), strain);
+        let strain = Self::strain(at);
+        let tension = (law.ea * law.damping).mul_add(at.tangent.dot(rate), E::tension(law, strain));
         with_slack_force(at.tangent * tension.max(law.floor), cpu, law, strain, rate)
     }
 
-    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
-        let stretch = length(p);
-        let t = p / stretch;
-        let tension = Self::tension(law, p, rate);
-        if tension <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
-            return slack_tangent(law, p, rate);
-        }
-        let along = t * t.transpose();
-        let across = Matrix3::identity() - along;
-        let turning = across * rate * (law.damping / stretch);
-        let slack = slack_tangent(law, p, rate);
-        AxialTangent {
-            by_slope: (along + t * turning.transpose()) * law.ea
-                + across * (geometric.unwrap_or(tension).max(law.floor) / stretch)
-                + slack.by_slope,
-            by_rate: along * (law.ea * law.damping) + slack.by_rate,
-        }
+    #[inline(always)]
+    fn tangent<F: Real>(
+        cpu: F::Cpu,
+        law: &Axial<F>,
+        at: &Direction<F>,
+        rate: Triple<F>,
+        geometric: Option<F>,
+        by: By,
+    ) -> Tensor<F> {
+        let (t, per_stretch) = (at.tangent, at.stretch.reciprocal());
+        let tension = (law.ea * law.damping).mul_add(t.dot(rate), E::tension(law, Self::strain(at)));
+        let (stiffness, damping, across) = law.carried::<E>(tension, geometric);
+        let across = across * per_stretch * by.slope;
+        let along = stiffness * by.slope + damping * by.rate - across;
+        let turning = (rate - t * t.dot(rate)) * (damping * per_stretch * by.slope);
+        let sum = Tensor::isotropic(cpu, across).add_outer(t, t.mul_add(along, turning));
+        with_slack_tangent(sum, cpu, law, at, rate, by)
     }
 
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
         let stretch = length(p);
-        (law.ea * (stretch - 1.0 + law.damping * p.dot(rate) / stretch)).max(law.floor)
+        (E::tension(law, stretch - 1.0) + law.ea * law.damping * p.dot(rate) / stretch).max(law.floor)
     }
 
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
         let stretch = length(p);
-        law.ea * (stretch - 1.0 + p.dot(change) / stretch)
+        E::tension(law, stretch - 1.0) + E::stiffness(law) * p.dot(change) / stretch
     }
 }
 
-/// The 1994 report's law, linear in Green's strain.
+/// The 1994 report's law: λ by Green's strain.
 #[derive(Debug, Clone, Copy)]
-pub struct Report;
+pub struct Report<E>(PhantomData<E>);
 
-impl Stretch for Report {
+impl<E: Elastic> Stretch for Report<E> {
+    const SPECIAL: bool = E::SPECIAL;
+
+    #[inline(always)]
+    fn strain<F: Real>(at: &Direction<F>) -> F {
+        (at.slope.dot(at.slope) + -1.0) * 0.5
+    }
+
     #[inline(always)]
     fn force<F: Real>(cpu: F::Cpu, law: &Axial<F>, at: &Direction<F>, rate: Triple<F>) -> Triple<F> {
         let p = at.slope;
-        let lambda = law.ea * law.damping.mul_add(p.dot(rate), (p.dot(p) + -1.0) * 0.5);
+        let lambda = (law.ea * law.damping).mul_add(p.dot(rate), E::tension(law, Self::strain(at)));
         with_slack_force(p * lambda.max(law.floor), cpu, law, at.stretch + -1.0, rate)
     }
 
-    fn tangent(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>, geometric: Option<f64>) -> AxialTangent {
-        let lambda = law.ea * (0.5 * (p.dot(p) - 1.0) + law.damping * p.dot(rate));
-        if lambda <= law.floor && geometric.is_none_or(|g| g <= law.floor) {
-            return slack_tangent(law, p, rate);
-        }
-        let slack = slack_tangent(law, p, rate);
-        AxialTangent {
-            by_slope: (p * p.transpose() + p * rate.transpose() * law.damping) * law.ea
-                + Matrix3::identity() * geometric.unwrap_or(lambda).max(law.floor)
-                + slack.by_slope,
-            by_rate: p * p.transpose() * (law.ea * law.damping) + slack.by_rate,
-        }
+    #[inline(always)]
+    fn tangent<F: Real>(
+        cpu: F::Cpu,
+        law: &Axial<F>,
+        at: &Direction<F>,
+        rate: Triple<F>,
+        geometric: Option<F>,
+        by: By,
+    ) -> Tensor<F> {
+        let p = at.slope;
+        let lambda = (law.ea * law.damping).mul_add(p.dot(rate), E::tension(law, Self::strain(at)));
+        let (stiffness, damping, geometric) = law.carried::<E>(lambda, geometric);
+        let along = p * (stiffness * by.slope + damping * by.rate);
+        let turning = rate * (damping * by.slope);
+        let sum = Tensor::isotropic(cpu, geometric * by.slope).add_outer(p, along + turning);
+        with_slack_tangent(sum, cpu, law, at, rate, by)
     }
 
     fn tension(law: &Axial<f64>, p: &Vector3<f64>, rate: &Vector3<f64>) -> f64 {
-        (law.ea * (0.5 * (p.dot(p) - 1.0) + law.damping * p.dot(rate))).max(law.floor) * length(p)
+        (E::tension(law, 0.5 * (p.dot(p) - 1.0)) + law.ea * law.damping * p.dot(rate)).max(law.floor) * length(p)
     }
 
     fn linear_tension(law: &Axial<f64>, p: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
-        law.ea * (0.5 * (p.dot(p) - 1.0) + p.dot(change))
+        E::tension(law, 0.5 * (p.dot(p) - 1.0)) + E::stiffness(law) * p.dot(change)
     }
 }

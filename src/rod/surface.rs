@@ -5,11 +5,27 @@
 //! ```
 //!
 //! z height of the centreline above the water [m], d diameter [m], φ wet fraction [-]. Buoyancy, drag and added mass are φ times
-//! those under water; a floating line so finds its draught. On elements that are not certainly all wet, the water's force is
+//! those under water; a floating line so finds its draught. In waves z is the height above the wave's surface: on an element, the cubic
+//! through its values at x = 0, ⅓, ⅔, 1, which is good to a (k l)⁴/2000 for a wave of amplitude a and number k that travels along an
+//! element of length l. On elements that are not certainly all wet, the water's force is
 //! integrated over the parts below +d/2, cut at -d/2, which are found exactly. (Taking a dry share off the force on the whole
 //! element would be shorter, but its error can have the sign of a negative drag.)
 
 use crate::algebra::polynomial::{Cubic, Interval};
+use crate::algebra::shape::Shape;
+use crate::rod::element::Ends;
+use crate::rod::morison::Water;
+use crate::sea::clock::Clock;
+use nalgebra::Vector3;
+
+/// Height of an element above the surface of the waves [m].
+pub fn above_waves<W: Water>(u: &Ends<f64>, water: &W, clock: &Clock) -> Cubic {
+    let height = |x: f64| {
+        let place = Vector3::from(u.combine(&Shape::at(x).value));
+        place.z - water.elevation(clock, &place)
+    };
+    Cubic::through([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(height))
+}
 
 /// The parts of an element that are wet or awash, cut at z = -d/2, given its height above the water.
 pub fn wet_parts(height: &Cubic, diameter: f64) -> impl Iterator<Item = Interval> {

@@ -6,15 +6,17 @@ use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, SHAPES3, Shape};
-use crate::rod::element::{self, ElementTangent, Ends, Motion, PointTangent, Table, Weights};
+use crate::rod::element::{Ends, Motion, Table, Weights};
+use crate::rod::element_tangent::{ElementTangent, PointTangent};
 use crate::rod::friction::{Contact, Friction};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
-use crate::rod::seabed::{Plane, Resistance, projector};
+use crate::rod::seabed::{self, Plane, Resistance, projector};
 use crate::rod::state::Field;
 use crate::rod::stretch::Direction;
 use crate::rod::surface;
-use nalgebra::{Matrix3, Vector2, Vector3};
+use crate::sea::clock::Clock;
+use nalgebra::{Vector2, Vector3};
 
 /// The bed under a line: its plane, its resistance against each element, and its friction.
 #[derive(Debug, Clone)]
@@ -32,12 +34,13 @@ fn integrate(
     rule: &[GaussPoint],
     part: Interval,
     length: f64,
-    mut force: impl FnMut(&Shape) -> Vector3<f64>,
+    mut force: impl FnMut(f64, &Shape) -> Vector3<f64>,
     sum: &mut [Triple<f64>; 4],
 ) {
     for point in rule {
-        let shape = Shape::at(part.from + (part.to - part.from) * point.x);
-        let f = force(&shape) * (point.weight * (part.to - part.from) * length);
+        let x = part.from + (part.to - part.from) * point.x;
+        let shape = Shape::at(x);
+        let f = force(x, &shape) * (point.weight * (part.to - part.from) * length);
         for k in 0..4 {
             sum[k] = Triple::from(f).scale_add(shape.value[k], sum[k]);
         }
@@ -65,7 +68,7 @@ impl Ground {
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
         let mut sum = [Triple::zero(()); 4];
         for part in resistance.touching(&profile).iter() {
-            let push = |shape: &Shape| {
+            let push = |_: f64, shape: &Shape| {
                 let rate = v.combine(&shape.value).along(normal);
                 normal * -resistance.push(self.plane.height(&u.combine(&shape.value).into()), rate)
             };
@@ -143,7 +146,11 @@ impl Ground {
         let v = Ends::gather(at.v, e, length);
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
         let mut products = [[0.0; 4]; 4];
-        for part in resistance.touching(&profile).iter() {
+        let grounded = resistance.damping == 0.0 && profile.below(resistance.onset);
+        if grounded {
+            products = seabed::grounded_tangent(resistance.stiffness * weights.u, length);
+        }
+        for part in resistance.touching(&profile).iter().filter(|_| !grounded) {
             for point in &GAUSS4 {
                 let shape = Shape::at(part.from + (part.to - part.from) * point.x);
                 let rate = v.combine(&shape.value).along(normal);
@@ -155,8 +162,8 @@ impl Ground {
                 }
             }
         }
-        let mut sum = ElementTangent::zero();
-        sum.add_products(&products, &projector(normal));
+        let mut sum = ElementTangent::zero(());
+        sum.add_products(&products, &projector(normal).into());
         if let Some(friction) = &self.friction {
             let rates = v.along(normal);
             for g in 0..3 {
@@ -164,8 +171,8 @@ impl Ground {
                 if contact.push > 0.0 {
                     let (change, measure) = (friction.tangent(e, &contact), GAUSS3[g].weight * length);
                     let shape = SHAPES3[g].scaled(length);
-                    let point = PointTangent::of_load(-change.by_position * weights.u, Matrix3::zeros());
-                    sum.add(&shape, measure, &point);
+                    let point = PointTangent::of_load((-change.by_position * weights.u).into());
+                    sum.add(&shape, measure, 1.0, &point);
                     let mut products = [[0.0; 4]; 4];
                     for point in resistance.touching(&profile).iter().flat_map(|part| points_on(part, g)) {
                         let (by_position, by_rate) = resistance.tangent(profile.at(point.x), rates.at(point.x));
@@ -173,11 +180,11 @@ impl Ground {
                         let value = Shape::at(point.x).scaled(length).value;
                         (0..4).for_each(|k| (0..4).for_each(|l| products[k][l] += scale * shape.value[k] * value[l]));
                     }
-                    sum.add_products(&products, &(change.by_push * normal.transpose()));
+                    sum.add_products(&products, &(change.by_push * normal.transpose()).into());
                 }
             }
         }
-        sum.add_to(matrix, e);
+        sum.add_to(matrix, e, 1.0, e + 1);
     }
 
     /// Unstretched length of element `e` in contact [m].
@@ -213,23 +220,27 @@ impl Surface {
         }
     }
 
-    fn lifted(&self, table: &Table, u: &Field, e: usize) -> Option<(Ends<f64>, Cubic)> {
-        let ends = Ends::gather(u, e, table.length_of(e));
+    /// The element and its height above the surface, unless it is certainly all wet.
+    fn lifted<W: Water>(&self, table: &Table, water: &W, at: &Motion, e: usize) -> Option<(Ends<f64>, Cubic)> {
+        let ends = Ends::gather(at.u, e, table.length_of(e));
         let height = ends.height();
-        (!height.below(-0.5 * self.diameter[e]) && !table.is_joint(e)).then_some((ends, height))
+        if height.below(water.lowest_surface() - 0.5 * self.diameter[e]) || table.is_joint(e) {
+            return None;
+        }
+        Some((ends, if W::WAVES { surface::above_waves(&ends, water, &at.clock) } else { height }))
     }
 
     /// What the force of the water on the wet share of element `e` adds to the forces on its ends, if the element is lifted.
     pub fn forces<W: Water>(&self, table: &Table, water: &W, at: &Motion, e: usize) -> Option<[Triple<f64>; 4]> {
-        let (u, height) = self.lifted(table, at.u, e)?;
+        let (u, height) = self.lifted(table, water, at, e)?;
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients(e);
         let mut sum = [Triple::zero(()); 4];
         for part in surface::wet_parts(&height, self.diameter[e]) {
-            let force = |shape: &Shape| {
-                let point = point_motion(&u, &v, &a, length, shape);
-                self.force(water, &coefficients, &point, e) * -surface::wet_fraction(point.height, self.diameter[e]).0
+            let force = |x: f64, shape: &Shape| {
+                let point = point_motion(at.clock, &u, &v, &a, length, shape);
+                self.force(water, &coefficients, &point, e) * -self.wet::<W>(&height, x, &point, e).0
             };
             integrate(self.rule(&height, part, e), part, length, force, &mut sum);
         }
@@ -239,6 +250,11 @@ impl Surface {
     /// Three points under water, as in the fast loop; four where the line is awash, which are exact for its buoyancy.
     fn rule(&self, height: &Cubic, part: Interval, e: usize) -> &'static [GaussPoint] {
         if height.at(0.5 * (part.from + part.to)) < -0.5 * self.diameter[e] { &GAUSS3 } else { &GAUSS4 }
+    }
+
+    /// Wet fraction φ at x in [0, 1] of an element, and its change with height [1/m].
+    fn wet<W: Water>(&self, height: &Cubic, x: f64, point: &PointMotion<f64>, e: usize) -> (f64, f64) {
+        surface::wet_fraction(if W::WAVES { height.at(x) } else { point.place.z }, self.diameter[e])
     }
 
     /// Force of the water under water [N/m].
@@ -257,36 +273,37 @@ impl Surface {
         weights: &Weights,
         matrix: &mut BlockTridiagonal<6>,
     ) {
-        let Some((u, height)) = self.lifted(table, at.u, e) else { return };
+        let Some((u, height)) = self.lifted(table, water, at, e) else { return };
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients(e);
-        let mut sum = ElementTangent::zero();
+        let mut sum = ElementTangent::zero(());
         for part in surface::wet_parts(&height, self.diameter[e]) {
             for gauss in self.rule(&height, part, e) {
-                let shape = Shape::at(part.from + (part.to - part.from) * gauss.x);
-                let point = point_motion(&u, &v, &a, length, &shape);
-                let (wet, by_height) = surface::wet_fraction(point.height, self.diameter[e]);
-                let mut tangent = PointTangent::of_load(Matrix3::zeros(), Matrix3::zeros());
-                if W::PRESENT {
-                    let (load, turning) = element::water_tangent(water, &coefficients, &point, weights);
-                    tangent.load = load * -wet;
-                    tangent.turning = turning * -wet;
-                }
+                let x = part.from + (part.to - part.from) * gauss.x;
+                let shape = Shape::at(x);
+                let point = point_motion(at.clock, &u, &v, &a, length, &shape);
+                let (wet, by_height) = self.wet::<W>(&height, x, &point, e);
                 let force = self.force(water, &coefficients, &point, e);
-                tangent.load -= force * Vector3::z().transpose() * (by_height * weights.u);
-                let scale = gauss.weight * (part.to - part.from) * length;
-                sum.add(&shape.scaled(length), scale, &tangent);
+                let by_rising = force * Vector3::z().transpose() * (-by_height * weights.u);
+                let mut tangent = PointTangent::of_load(by_rising.into());
+                if W::PRESENT {
+                    let water = morison::tangent((), water, &coefficients, &point, weights);
+                    tangent.load = water.by_motion.scale_add(-wet, tangent.load);
+                    tangent.turning = water.by_slope.times(-wet);
+                }
+                sum.add(&shape, gauss.weight * (part.to - part.from) * length, 1.0 / length, &tangent);
             }
         }
-        sum.add_to(matrix, e);
+        sum.add_to(matrix, e, length, e + 1);
     }
 }
 
-fn point_motion(u: &Ends<f64>, v: &Ends<f64>, a: &Ends<f64>, length: f64, shape: &Shape) -> PointMotion<f64> {
+fn point_motion(clock: Clock, u: &Ends<f64>, v: &Ends<f64>, a: &Ends<f64>, length: f64, shape: &Shape) -> PointMotion<f64> {
     PointMotion {
+        clock,
         direction: Direction::of(u.combine(&shape.slope).scale(1.0 / length)),
-        height: u.combine_z(&shape.value),
+        place: u.combine(&shape.value),
         velocity: v.combine(&shape.value),
         acceleration: a.combine(&shape.value),
     }

@@ -6,7 +6,7 @@
 
 use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;
-use crate::scene::types::{Line, LineType, Motion, NormalTangential, Scene, Scheme, Triple};
+use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Scheme, Triple, Waves};
 
 /// Largest size of any number.
 const LARGEST: f64 = 1.0e15;
@@ -14,6 +14,8 @@ const LARGEST: f64 = 1.0e15;
 const SMALLEST: f64 = 1.0e-12;
 /// Most elements of a scene.
 const MOST_ELEMENTS: usize = 20_000;
+/// Most components of a sea.
+const MOST_COMPONENTS: usize = 5000;
 /// Most rows of `timeseries.csv`.
 const MOST_ROWS: f64 = 5.0e7;
 /// A motion file that begins farther than this from the scene's fairlead [m] may have other axes.
@@ -23,16 +25,19 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 24] = [
+const RULES: [Rule; 29] = [
     gravity,
     water_density,
     depth,
     seabed,
     slope,
     current,
+    waves,
     line_types_exist,
     line_type_names,
     line_type_numbers,
+    tension_tables,
+    inner_fluids,
     weight_given_once,
     weight_leaves_buoyancy,
     lines_exist,
@@ -41,6 +46,8 @@ const RULES: [Rule; 24] = [
     section_types,
     lengths,
     elements,
+    attachments,
+    constraints,
     ends_above_bed,
     motion_numbers,
     motion_above_bed,
@@ -56,35 +63,16 @@ pub fn check(scene: &Scene, file: &str) -> Result<Vec<String>, Error> {
         rule(scene, file)?;
     }
     supported(scene, file)?;
-    Ok(unused_line_types(scene))
+    Ok([unused_line_types(scene), breaking_waves(scene), without_effect(scene)].concat())
 }
 
 /// Features that the types know and the solver does not yet: each one a block to delete.
 fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
     let unsupported =
         |place: String, feature: &str| Err(Error::Unsupported { file: file.into(), place, feature: feature.into() });
-    if scene.environment.waves.is_some() {
-        return unsupported("environment.waves".into(), "waves; remove them for still water");
-    }
-    for (name, line_type) in &scene.line_types {
-        if line_type.tension_strain.is_some() {
-            return unsupported(in_type(name, "tension_strain"), "tension–strain tables; remove it to use `ea` alone");
-        }
-        if line_type.inner_fluid.is_some() {
-            return unsupported(in_type(name, "inner_fluid"), "an inner fluid; remove it and add its mass to `mass`");
-        }
-    }
-    for (number, line) in scene.lines.iter().enumerate() {
-        if !line.attachments.is_empty() {
-            return unsupported(format!("lines[{number}].attachments"), "clump weights and buoys; remove them");
-        }
-    }
     if scene.solver.scheme == Scheme::Cable1994 {
         let others = "the scheme \"cable-1994\"; use \"adams-moulton\", \"esdirk3\" or \"generalized-alpha\"";
         return unsupported("solver.scheme".into(), others);
-    }
-    if scene.solver.hydrostatic_strain {
-        return unsupported("solver.hydrostatic_strain".into(), "strain from hydrostatic pressure; set it to false");
     }
     Ok(())
 }
@@ -144,6 +132,57 @@ fn current(scene: &Scene, file: &str) -> Result<(), Error> {
     Ok(())
 }
 
+/// Numbers of the right sign, and a surface that stays above the bed.
+fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
+    let Some(waves) = &scene.environment.waves else { return Ok(()) };
+    let at = |key: &str| format!("environment.waves.{key}");
+    let one = |place: &str, amplitude: f64, period: f64, direction: f64, phase: f64| {
+        not_negative(file, &at(&format!("{place}amplitude")), amplitude, "m")?;
+        positive(file, &at(&format!("{place}period")), period, "s")?;
+        finite(file, &at(&format!("{place}direction_deg")), &[direction])?;
+        finite(file, &at(&format!("{place}phase_deg")), &[phase])
+    };
+    let count = |count: usize| match count {
+        1..=MOST_COMPONENTS => Ok(()),
+        _ => refuse(file, at("components"), count.to_string(), format!("a sea has 1 to {MOST_COMPONENTS} components")),
+    };
+    let (key, down, ramp) = match waves {
+        Waves::Regular { amplitude, period, direction_deg, phase_deg, ramp } => {
+            one("", *amplitude, *period, *direction_deg, *phase_deg)?;
+            ("amplitude", *amplitude, ramp)
+        }
+        Waves::Jonswap { hs, tp, gamma, components, direction_deg, ramp, .. } => {
+            not_negative(file, &at("hs"), *hs, "m")?;
+            positive(file, &at("tp"), *tp, "s")?;
+            finite(file, &at("direction_deg"), &[*direction_deg])?;
+            count(*components)?;
+            if !(1.0..=20.0).contains(gamma) {
+                return refuse(
+                    file,
+                    at("gamma"),
+                    number(*gamma),
+                    "it must lie between 1 and 20; 3.3 is usual, 1 a full-grown sea",
+                );
+            }
+            ("hs", *hs, ramp)
+        }
+        Waves::Components { components, ramp } => {
+            count(components.len())?;
+            for (index, c) in components.iter().enumerate() {
+                one(&format!("components[{index}]."), c.amplitude, c.period, c.direction_deg, c.phase_deg)?;
+            }
+            ("components", components.iter().map(|c| c.amplitude).sum(), ramp)
+        }
+    };
+    not_negative(file, &at("ramp"), ramp.unwrap_or(0.0), "s; 0 means none")?;
+    let depth = scene.environment.depth;
+    if !(down < depth) {
+        let allowed = format!("waves so high would bare the seabed, which is {} m below still water", number(depth));
+        return refuse(file, at(key), format!("{} m", number(down)), allowed);
+    }
+    Ok(())
+}
+
 fn line_types_exist(scene: &Scene, file: &str) -> Result<(), Error> {
     if scene.line_types.is_empty() {
         return refuse(file, "line_types", "{ }", "a scene needs at least one line type with ea, mass and diameter");
@@ -176,8 +215,54 @@ fn line_type_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
             not_negative(file, &at(&format!("{key}.normal")), normal, "")?;
             not_negative(file, &at(&format!("{key}.tangential")), tangential, "")?;
         }
+        if let Some(area) = line_type.outer_area {
+            not_negative(file, &at("outer_area"), area, "m²; leave it out for the displaced volume per length")?;
+        }
+        if let Some(stiffness) = line_type.seabed_stiffness {
+            positive(file, &at("seabed_stiffness"), stiffness, "Pa; leave it out for environment.seabed.stiffness")?;
+        }
         if let Some(load) = line_type.breaking_load {
             positive(file, &at("breaking_load"), load, "N")?;
+        }
+    }
+    Ok(())
+}
+
+/// A table begins at [0, 0] and rises, in strain and in tension.
+fn tension_tables(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        let Some(table) = &line_type.tension_strain else { continue };
+        let place = |point: usize| format!("{}[{point}]", in_type(name, "tension_strain"));
+        let shown = |point: &[f64; 2]| format!("[{}, {}]", number(point[0]), number(point[1]));
+        if table.len() < 2 {
+            let place = in_type(name, "tension_strain");
+            return refuse(
+                file,
+                place,
+                format!("{} points", table.len()),
+                "give two or more, [strain, tension in N], from [0, 0] on",
+            );
+        }
+        if table[0] != [0.0, 0.0] {
+            return refuse(file, place(0), shown(&table[0]), "the first point is [0, 0]: no tension without strain");
+        }
+        for (point, pair) in table.windows(2).enumerate() {
+            finite(file, &place(point + 1), &pair[1])?;
+            if !(pair[1][0] > pair[0][0] && pair[1][1] > pair[0][1]) {
+                let allowed = format!("strain and tension must rise from point to point; the one before is {}", shown(&pair[0]));
+                return refuse(file, place(point + 1), shown(&pair[1]), allowed);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn inner_fluids(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        if let Some(fluid) = &line_type.inner_fluid {
+            not_negative(file, &in_type(name, "inner_fluid.density"), fluid.density, "kg/m³")?;
+            not_negative(file, &in_type(name, "inner_fluid.area"), fluid.area, "m²")?;
+            finite(file, &in_type(name, "inner_fluid.pressure"), &[fluid.pressure])?;
         }
     }
     Ok(())
@@ -288,6 +373,76 @@ fn elements(scene: &Scene, file: &str) -> Result<(), Error> {
     Ok(())
 }
 
+fn attachments(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (index, line) in scene.lines.iter().enumerate() {
+        for (number, body) in line.attachments.iter().enumerate() {
+            let at = |key: &str| format!("lines[{index}].attachments[{number}].{key}");
+            on_the_line(file, &at("s"), body.s, line)?;
+            not_negative(file, &at("mass"), body.mass, "kg")?;
+            not_negative(file, &at("volume"), body.volume, "m³")?;
+            not_negative(file, &at("drag_area"), body.drag_area, "m²")?;
+            not_negative(file, &at("added_mass"), body.added_mass, "kg")?;
+        }
+    }
+    Ok(())
+}
+
+fn constraints(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (index, line) in scene.lines.iter().enumerate() {
+        for (number, constraint) in line.constraints.iter().enumerate() {
+            let at = |key: &str| format!("lines[{index}].constraints[{number}].{key}");
+            on_the_line(file, &at("s"), constraint.s, line)?;
+            if let Some(twin) = line.constraints[..number].iter().position(|other| other.s == constraint.s) {
+                let allowed = format!("constraints[{twin}] is there already; say all that holds one point in one constraint");
+                return refuse(file, at("s"), self::number(constraint.s), allowed);
+            }
+            two_directions(file, &at("axes"), &constraint.axes)?;
+            finite(file, &at("reference"), &constraint.reference.unwrap_or_default())?;
+            for axis in 0..3 {
+                not_negative(file, &at(&format!("stiffness[{axis}]")), constraint.stiffness[axis], "N/m")?;
+                not_negative(file, &at(&format!("damping[{axis}]")), constraint.damping[axis], "N·s/m")?;
+            }
+            finite(file, &at("force"), &constraint.force)?;
+            not_negative(file, &at("mass"), constraint.mass, "kg")?;
+            not_negative(file, &at("added_mass"), constraint.added_mass, "kg")?;
+            if let Some(ReferenceMotion { period, sine, cosine, ramp }) = &constraint.motion {
+                sinusoid(file, &at("motion"), *period, [sine, cosine], *ramp)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn on_the_line(file: &str, place: &str, s: f64, line: &Line) -> Result<(), Error> {
+    let length = line.length();
+    if (0.0..=length * (1.0 + 1.0e-9)).contains(&s) {
+        return Ok(());
+    }
+    let allowed = format!("it must lie on the line, between 0 (fairlead) and {} m (anchor)", number(length));
+    refuse(file, place, number(s), allowed)
+}
+
+/// Two directions span axes when neither vanishes and they are not parallel (within a ten-thousandth of a radian).
+fn two_directions(file: &str, place: &str, axes: &[Triple; 2]) -> Result<(), Error> {
+    let [first, second] = axes;
+    finite(file, place, first)?;
+    finite(file, place, second)?;
+    let size = |a: &Triple| distance([0.0; 3], *a);
+    let cross = [0, 1, 2].map(|c| first[(c + 1) % 3] * second[(c + 2) % 3] - first[(c + 2) % 3] * second[(c + 1) % 3]);
+    if !(size(&cross) > 1.0e-4 * size(first) * size(second)) {
+        let value = format!("[{}, {}]", triple(*first), triple(*second));
+        return refuse(file, place, value, "give two directions of some length that are not parallel");
+    }
+    Ok(())
+}
+
+fn sinusoid(file: &str, place: &str, period: f64, parts: [&Triple; 2], ramp: Option<f64>) -> Result<(), Error> {
+    positive(file, &format!("{place}.period"), period, "s")?;
+    finite(file, &format!("{place}.sine"), parts[0])?;
+    finite(file, &format!("{place}.cosine"), parts[1])?;
+    not_negative(file, &format!("{place}.ramp"), ramp.unwrap_or(0.0), "s; 0 means none")
+}
+
 fn ends_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
     for (index, line) in scene.lines.iter().enumerate() {
         for (end, at) in [("fairlead", line.fairlead), ("anchor", line.anchor)] {
@@ -310,12 +465,7 @@ fn ends_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
 fn motion_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
     match &scene.motion {
         Motion::Fixed => Ok(()),
-        Motion::Sinusoidal { period, sine, cosine, ramp } => {
-            positive(file, "motion.period", *period, "s")?;
-            finite(file, "motion.sine", sine)?;
-            finite(file, "motion.cosine", cosine)?;
-            not_negative(file, "motion.ramp", ramp.unwrap_or(0.0), "s; 0 means none")
-        }
+        Motion::Sinusoidal { period, sine, cosine, ramp } => sinusoid(file, "motion", *period, [sine, cosine], *ramp),
         Motion::File { path } if path.trim().is_empty() => {
             refuse(file, "motion.path", "\"\"", "name a CSV file with the columns t,x,y,z[,vx,vy,vz]")
         }
@@ -357,6 +507,7 @@ fn file_moves_one_line(scene: &Scene, file: &str) -> Result<(), Error> {
 fn run(scene: &Scene, file: &str) -> Result<(), Error> {
     let run = &scene.run;
     not_negative(file, "run.duration", run.duration, "s")?;
+    finite(file, "run.start", &[run.start])?;
     positive(file, "run.output_step", run.output_step, "s")?;
     let rows = run.duration / run.output_step;
     if !(rows <= MOST_ROWS) {
@@ -375,9 +526,10 @@ fn solver(scene: &Scene, file: &str) -> Result<(), Error> {
     solver.fixed_step.map_or(Ok(()), |step| positive(file, "solver.fixed_step", step, "s; leave it out for step control"))
 }
 
-/// A line may be shorter than the distance of its ends: it stretches, but neither to twice its length nor beyond a breaking load.
+/// A line may be shorter than the distance of its ends: it stretches, but neither to twice its length nor beyond a breaking load. An
+/// end that a constraint holds comes nearer by itself.
 fn reach(scene: &Scene, file: &str) -> Result<(), Error> {
-    for (index, line) in scene.lines.iter().enumerate() {
+    for (index, line) in scene.lines.iter().enumerate().filter(|(_, line)| line.is_pinned(0.0) && line.is_pinned(line.length())) {
         let (length, distance) = (line.length(), distance(line.fairlead, line.anchor));
         let stretch = distance / length - 1.0;
         let limit = weakest(scene, line)
@@ -426,6 +578,49 @@ fn unused_line_types(scene: &Scene) -> Vec<String> {
     unused.map(|name| format!("line_types.{name} is used by no section")).collect()
 }
 
+/// Warning: waves higher than any can stand, 0.142 of the length in deep water (Michell 1893) or 0.78 of the depth.
+fn breaking_waves(scene: &Scene) -> Vec<String> {
+    let breaks = |place: &str, amplitude: f64, period: f64| {
+        let length = scene.environment.gravity * period * period / std::f64::consts::TAU;
+        let highest = (0.142 * length).min(0.78 * scene.environment.depth);
+        (2.0 * amplitude > highest).then(|| {
+            let (height, period, highest) = (number(2.0 * amplitude), number(period), number((100.0 * highest).round() / 100.0));
+            format!(
+                "{place}: a wave {height} m high of {period} s would break at {highest} m; linear theory does not hold for it"
+            )
+        })
+    };
+    match &scene.environment.waves {
+        Some(Waves::Regular { amplitude, period, .. }) => breaks("environment.waves", *amplitude, *period).into_iter().collect(),
+        Some(Waves::Components { components, .. }) => {
+            let place = |index: usize| format!("environment.waves.components[{index}]");
+            components.iter().enumerate().filter_map(|(index, c)| breaks(&place(index), c.amplitude, c.period)).collect()
+        }
+        Some(Waves::Jonswap { hs, tp, .. }) => breaks("environment.waves", 0.5 * hs, *tp).into_iter().collect(),
+        None => Vec::new(),
+    }
+}
+
+/// Warnings: bodies and forces that load a support instead of the line, and a motion that nothing follows.
+fn without_effect(scene: &Scene) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (index, line) in scene.lines.iter().enumerate() {
+        for (number, body) in line.attachments.iter().enumerate() {
+            if line.end_at(body.s).is_some() && line.is_pinned(body.s) {
+                let place = format!("lines[{index}].attachments[{number}]");
+                warnings.push(format!("{place} sits on a pinned end: it loads what holds the line, and nothing else changes"));
+            }
+        }
+        if scene.motion != Motion::Fixed && !line.is_pinned(0.0) {
+            let line = format!("lines[{index}]");
+            warnings.push(format!(
+                "motion does not move the fairlead of {line}, which a constraint holds; give that constraint a motion of its own"
+            ));
+        }
+    }
+    warnings
+}
+
 /// Warnings about a motion file named `path`: it begins elsewhere than the fairlead, or does not cover the run.
 pub fn motion_table(scene: &Scene, table: &Table, path: &str) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -442,10 +637,10 @@ pub fn motion_table(scene: &Scene, table: &Table, path: &str) -> Vec<String> {
             triple(line.fairlead)
         ));
     }
-    if *start > 0.0 || *end < scene.run.duration {
-        let (start, end, duration) = (number(*start), number(*end), number(scene.run.duration));
+    if *start > scene.run.start || *end < scene.run.end() {
+        let [start, end, from, to] = [*start, *end, scene.run.start, scene.run.end()].map(number);
         warnings
-            .push(format!("{path} covers t = {start} s to {end} s of a run from 0 to {duration} s; the fairlead rests outside"));
+            .push(format!("{path} covers t = {start} s to {end} s of a run from {from} to {to} s; the fairlead rests outside"));
     }
     warnings
 }

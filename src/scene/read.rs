@@ -255,7 +255,7 @@ fn plain_expected(expected: &str) -> String {
         "a sequence" => "a list [ ]",
         "a map" => "an object { }",
         "string or map" => "a name in quotes",
-        "an array of length 3" | "fewer elements in array" => "three numbers [x, y, z]",
+        "an array of length 3" | "fewer elements in array" => "three values [x, y, z]",
         "an array of length 2" => "two numbers",
         other if other.starts_with("struct ") || other.contains("tagged enum") => "an object { }",
         other => other,

@@ -59,7 +59,7 @@ pub struct Environment {
     /// Current profile: velocity at rising or falling z, piecewise linear, held constant outside the table. Default: none.
     #[serde(default)]
     pub current: Vec<CurrentPoint>,
-    /// Waves. Default: none.
+    /// Waves. The equilibrium at the start is that of calm water. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waves: Option<Waves>,
     /// What the water surface does to a line. Default `pierced`.
@@ -100,54 +100,64 @@ pub struct CurrentPoint {
     pub velocity: Triple,
 }
 
-/// Waves by linear theory in finite depth.
+/// Waves by linear theory in water of `depth`, with Wheeler's stretching to the surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Waves {
     /// One regular wave: elevation a·cos(k(x cos b + y sin b) - w t + phase).
     Regular {
-        /// Amplitude [m].
+        /// Amplitude [m], ≥ 0.
+        #[schemars(range(min = 0.0))]
         amplitude: f64,
-        /// Period [s].
+        /// Period [s], > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
         period: f64,
-        /// Direction of travel from +x towards +y [deg].
+        /// Direction of travel from +x towards +y [deg]. Default 0.
         #[serde(default)]
         direction_deg: f64,
-        /// Phase at the origin at t = 0 [deg].
+        /// Phase at the origin at t = 0 [deg]. Default 0.
         #[serde(default)]
         phase_deg: f64,
-        /// Time over which the amplitude is eased in [s]. Default: one period.
+        /// Time over which the amplitude is eased in [s], ≥ 0. Default: one period.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
         ramp: Option<f64>,
     },
-    /// A JONSWAP sea.
+    /// A JONSWAP sea: components of equal energy at random frequencies with random phases.
     Jonswap {
-        /// Significant wave height [m].
+        /// Significant wave height [m], ≥ 0.
+        #[schemars(range(min = 0.0))]
         hs: f64,
-        /// Peak period [s].
+        /// Peak period [s], > 0.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
         tp: f64,
-        /// Peak enhancement [-].
+        /// Peak enhancement [-], from 1 to 20. Default 3.3.
         #[serde(default = "jonswap_gamma")]
+        #[schemars(range(min = 1.0, max = 20.0))]
         gamma: f64,
-        /// Seed of the random phases.
+        /// Seed of the random frequencies and phases: the same seed, the same sea. Default 0.
         #[serde(default)]
         seed: u64,
-        /// Number of components.
+        /// Number of components, 1 to 5000. Default 200.
         #[serde(default = "jonswap_components")]
+        #[schemars(range(min = 1, max = 5000))]
         components: usize,
-        /// Direction of travel from +x towards +y [deg].
+        /// Direction of travel from +x towards +y [deg]. Default 0.
         #[serde(default)]
         direction_deg: f64,
-        /// Time over which the amplitude is eased in [s]. Default: one peak period.
+        /// Time over which the amplitude is eased in [s], ≥ 0. Default: one peak period.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
         ramp: Option<f64>,
     },
     /// A list of regular components.
     Components {
-        /// The components.
+        /// The components, 1 to 5000.
+        #[schemars(length(min = 1, max = 5000))]
         components: Vec<WaveComponent>,
-        /// Time over which the amplitude is eased in [s]. Default: the longest period.
+        /// Time over which the amplitude is eased in [s], ≥ 0. Default: the longest period.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
         ramp: Option<f64>,
     },
 }
@@ -156,14 +166,16 @@ pub enum Waves {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WaveComponent {
-    /// Amplitude [m].
+    /// Amplitude [m], ≥ 0.
+    #[schemars(range(min = 0.0))]
     pub amplitude: f64,
-    /// Period [s].
+    /// Period [s], > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub period: f64,
-    /// Direction of travel from +x towards +y [deg].
+    /// Direction of travel from +x towards +y [deg]. Default 0.
     #[serde(default)]
     pub direction_deg: f64,
-    /// Phase at the origin at t = 0 [deg].
+    /// Phase at the origin at t = 0 [deg]. Default 0.
     #[serde(default)]
     pub phase_deg: f64,
 }
@@ -213,7 +225,8 @@ pub struct LineType {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub damping: f64,
-    /// Rising (strain, tension [N]) points that replace `ea` beyond the linear law. Default: none.
+    /// Points [strain, tension in N], rising from [0, 0], between which the tension is linear; they replace `ea`, which then acts in
+    /// `damping` alone. Beyond the last the tension goes on rising as before it. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension_strain: Option<Vec<[f64; 2]>>,
     /// Breaking load [N], > 0: a warning is given where the tension exceeds it. Default: none.
@@ -223,6 +236,15 @@ pub struct LineType {
     /// Fluid inside a pipe. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_fluid: Option<InnerFluid>,
+    /// Area on which the pressure of the water acts where `solver.hydrostatic_strain` is on [m²], ≥ 0.
+    /// Default: the displaced volume per length, buoyancy / (density · gravity).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub outer_area: Option<f64>,
+    /// Normal stiffness of the seabed under this type [Pa], > 0. Default: `environment.seabed.stiffness`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub seabed_stiffness: Option<f64>,
 }
 
 /// A coefficient across and along the line.
@@ -239,7 +261,7 @@ pub struct NormalTangential {
     pub tangential: f64,
 }
 
-/// Fluid inside a pipe.
+/// Fluid inside a pipe: its mass and weight are added to those of the pipe, its pressure is at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InnerFluid {
@@ -249,9 +271,12 @@ pub struct InnerFluid {
     /// Inner area [m²], ≥ 0.
     #[schemars(range(min = 0.0))]
     pub area: f64,
+    /// Pressure at the height of the fairlead [Pa]. Default 0.
+    #[serde(default)]
+    pub pressure: f64,
 }
 
-/// One mooring line from fairlead to anchor. Both ends are pinned.
+/// One mooring line from fairlead to anchor. Both ends are pinned, unless a constraint says otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Line {
@@ -269,6 +294,10 @@ pub struct Line {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(extend("default" = []))]
     pub attachments: Vec<Attachment>,
+    /// Springs, dampers, locked directions, dead forces and masses at points of the line. Default: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
+    pub constraints: Vec<Constraint>,
 }
 
 /// A stretch of one line type.
@@ -281,30 +310,100 @@ pub struct Section {
     /// Unstretched length [m], > 0.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub length: f64,
-    /// Number of equal elements, ≥ 1. Default: chosen by the program to meet the tolerance.
+    /// Number of equal elements, ≥ 1. Default: chosen by the program to meet the tolerance. A section that an attachment or constraint
+    /// divides shares them out among its parts, at least one each.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 20000))]
     pub elements: Option<usize>,
 }
 
-/// A clump weight or buoy on the line.
+/// A clump weight or buoy on the line: a small body at one point of it. It rests on the seabed where it reaches it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {
-    /// Arc length from the fairlead [m].
+    /// Arc length from the fairlead [m], from 0 to the line's length.
+    #[schemars(range(min = 0.0))]
     pub s: f64,
-    /// Mass [kg].
+    /// Mass [kg], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub mass: f64,
-    /// Displaced volume [m³].
+    /// Displaced volume [m³], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub volume: f64,
-    /// Drag coefficient times area [m²].
+    /// Drag coefficient times area [m²], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub drag_area: f64,
-    /// Added mass [kg].
+    /// Added mass [kg], ≥ 0. Default 0.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub added_mass: f64,
+}
+
+/// What holds or loads one point of the line. At an end (s = 0 or s = the line's length) it releases the pin: the end is then
+/// held by what the constraint says and by nothing else, and the scene's `motion` does not move it. (Locked along all axes without
+/// `reference` and `motion` it is the pin again.)
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Constraint {
+    /// Arc length from the fairlead [m], from 0 to the line's length.
+    #[schemars(range(min = 0.0))]
+    pub s: f64,
+    /// Directions of the first and second axis; the second is made perpendicular to the first, the third is their cross product.
+    /// Default: x and y, so that the axes are the global ones.
+    #[serde(default = "global_axes")]
+    pub axes: [Triple; 2],
+    /// Position at which springs and locks hold the point [m]. Default: at an end where the scene puts that end, elsewhere where
+    /// the point is in equilibrium without springs and locks of this constraint.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<Triple>,
+    /// Stiffness along the axes [N/m], ≥ 0. Default 0.
+    #[serde(default)]
+    #[schemars(inner(range(min = 0.0)))]
+    pub stiffness: Triple,
+    /// Damping along the axes against motion relative to the reference [N·s/m], ≥ 0. Default 0.
+    #[serde(default)]
+    #[schemars(inner(range(min = 0.0)))]
+    pub damping: Triple,
+    /// Axes along which the point does not move relative to the reference. Default: none.
+    #[serde(default)]
+    pub locked: [bool; 3],
+    /// Dead force along the global axes [N]. Default 0.
+    #[serde(default)]
+    pub force: Triple,
+    /// Mass [kg], ≥ 0, with its weight. Default 0.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub mass: f64,
+    /// Added mass [kg], ≥ 0, the same in all directions. Default 0.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub added_mass: f64,
+    /// Motion of the reference. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<ReferenceMotion>,
+}
+
+/// Motion of a constraint's reference: offset sine·sin(wt) + cosine·cos(wt) along the constraint's axes, w = 2 pi/period, times
+/// xi²(3 - 2 xi), xi = t/ramp, until `ramp` seconds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReferenceMotion {
+    /// Period [s], > 0.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub period: f64,
+    /// Amplitudes of the sine part [m]. Default 0.
+    #[serde(default)]
+    pub sine: Triple,
+    /// Amplitudes of the cosine part [m]. Default 0.
+    #[serde(default)]
+    pub cosine: Triple,
+    /// Length of the ramp [s], ≥ 0; 0 = none. Default: 3.25 periods.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub ramp: Option<f64>,
 }
 
 /// Motion of the fairleads.
@@ -397,6 +496,9 @@ pub struct Run {
     #[serde(default = "default_duration")]
     #[schemars(range(min = 0.0))]
     pub duration: f64,
+    /// Time at which the run begins [s]; the fairlead's motion is that of this time and after. Default 0.
+    #[serde(default)]
+    pub start: f64,
     /// Interval of `timeseries.csv` [s], > 0. Default 0.1.
     #[serde(default = "default_output_step")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -463,6 +565,9 @@ fn standard_gravity() -> f64 {
 fn sea_water_density() -> f64 {
     1025.0
 }
+fn global_axes() -> [Triple; 2] {
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+}
 fn jonswap_gamma() -> f64 {
     3.3
 }
@@ -484,7 +589,7 @@ fn default_max_step() -> f64 {
 
 impl Default for Run {
     fn default() -> Self {
-        Run { duration: default_duration(), output_step: default_output_step() }
+        Run { duration: default_duration(), start: 0.0, output_step: default_output_step() }
     }
 }
 
@@ -498,6 +603,13 @@ impl Default for Solver {
             stretch: Stretch::default(),
             hydrostatic_strain: false,
         }
+    }
+}
+
+impl Run {
+    /// Time at which the run ends [s].
+    pub fn end(&self) -> f64 {
+        self.start + self.duration
     }
 }
 
@@ -535,7 +647,35 @@ impl LineType {
     }
 }
 
+impl Constraint {
+    /// Whether it holds an end as a pin does: all locked, where the end is, without a motion of its own.
+    pub fn is_pin(&self) -> bool {
+        self.locked == [true; 3] && self.motion.is_none() && self.reference.is_none()
+    }
+}
+
+/// Points of a line nearer to each other than this share of its length are one.
+pub const SAME_PLACE: f64 = 1.0e-9;
+
 impl Line {
+    /// Where the scene puts the end at arc length `s` from the fairlead; none if that is no end.
+    pub fn end_at(&self, s: f64) -> Option<Triple> {
+        let (length, near) = (self.length(), SAME_PLACE * self.length());
+        if s <= near {
+            Some(self.fairlead)
+        } else if s >= length - near {
+            Some(self.anchor)
+        } else {
+            None
+        }
+    }
+
+    /// Whether nothing but a pin holds the end at arc length `s`, where there is one.
+    pub fn is_pinned(&self, s: f64) -> bool {
+        let near = SAME_PLACE * self.length();
+        !self.constraints.iter().any(|constraint| (constraint.s - s).abs() <= near && !constraint.is_pin())
+    }
+
     /// Unstretched length [m].
     pub fn length(&self) -> f64 {
         self.sections.iter().map(|section| section.length).sum()

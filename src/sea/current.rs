@@ -59,9 +59,14 @@ impl Current {
     }
 
     /// dV/dz at height z [1/s].
-    pub fn shear(&self, z: f64) -> Vector3<f64> {
-        let inside = |layer: &&Layer| z > layer.from && z < layer.from + layer.thickness;
-        self.layers.iter().find(inside).map_or(Vector3::zeros(), |layer| layer.shear)
+    #[inline(always)]
+    pub fn shear<F: Real>(&self, cpu: F::Cpu, z: F) -> Triple<F> {
+        let mut shear = Triple::zero(cpu);
+        for layer in &self.layers {
+            let inside = (z + -layer.from).positive() * (-z + (layer.from + layer.thickness)).positive();
+            shear = Triple::splat(cpu, &layer.shear).mul_add(inside, shear);
+        }
+        shear
     }
 }
 
@@ -77,7 +82,7 @@ mod tests {
         for (z, exact) in [(10.0, 0.5), (0.0, 0.5), (-25.0, 0.45), (-50.0, 0.4), (-75.0, 0.25), (-100.0, 0.1), (-500.0, 0.1)] {
             assert!((current.velocity(z).x - exact).abs() < 1e-15, "{z}");
         }
-        assert!((current.shear(-75.0).x - 0.006).abs() < 1e-15);
-        assert_eq!(current.shear(10.0).x, 0.0);
+        assert!((current.shear((), -75.0).x - 0.006).abs() < 1e-15);
+        assert_eq!(current.shear((), 10.0).x, 0.0);
     }
 }

@@ -29,16 +29,13 @@ impl Scheme for AdamsMoulton {
         let start = &from.state;
         let weights = Weights { u: 0.25 * h * h, v: 0.5 * h, a: 1.0 };
         predict(from, h, &mut next.a);
-        next.v.set_sum(&start.v, 0.5 * h, &start.a);
-        next.v.add(0.5 * h, &next.a);
-        next.u.set_sum(&start.u, 0.5 * h, &start.v);
-        next.u.add(0.5 * h, &next.v);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        next.v.set_sum([(1.0, &start.v), (0.5 * h, &start.a), (0.5 * h, &next.a)]);
+        next.u.set_sum([(1.0, &start.u), (0.5 * h, &start.v), (0.5 * h, &next.v)]);
+        bench.prescribe(next, from.clock_after(h));
         bench.solve(&weights, next)?;
 
-        self.error.copy_from(&next.a);
-        self.error.add(-1.0, &start.a);
-        self.error.data_mut().iter_mut().for_each(|x| *x *= h * h / 12.0);
+        let share = h * h / 12.0;
+        self.error.set_sum([(share, &next.a), (-share, &start.a)]);
         bench.filter(next, &mut self.error, &mut self.scratch);
         Ok(largest_position(&self.error))
     }

@@ -3,6 +3,7 @@
 use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
 use crate::scene::types;
+use crate::sea::clock::Clock;
 use crate::solve::esdirk::{Esdirk, TR_BDF2};
 use crate::solve::newton::{Criteria, Stall};
 use crate::solve::scheme::{self, Bench, Moment, Scheme, Stages};
@@ -58,7 +59,7 @@ pub struct Failure {
 }
 
 /// After a rejected step this many are taken by the L-stable method: what rings there, dies away.
-const GUARDED_STEPS: u32 = 8;
+const GUARDED_STEPS: u32 = 128;
 /// Halvings of a step before giving up.
 const HALVINGS: i32 = 24;
 
@@ -67,6 +68,8 @@ pub struct Controller {
     scheme: Box<dyn Scheme>,
     guard: Esdirk,
     next: State,
+    /// The step tried last [s].
+    tried: f64,
     /// Work done so far.
     pub tally: Tally,
 }
@@ -78,6 +81,7 @@ impl Controller {
             scheme: scheme::of(name, nodes),
             guard: Esdirk::new(&TR_BDF2, nodes),
             next: State::new(nodes),
+            tried: 0.0,
             tally: Tally::default(),
         }
     }
@@ -91,14 +95,21 @@ impl Controller {
         until: f64,
         mut accepted: impl FnMut(&Moment, &Leg),
     ) -> Result<(), Failure> {
-        let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.time) * 0.5f64.powi(HALVINGS);
+        let smallest = demands.fixed_step.unwrap_or(demands.max_step).min(until - moment.state.clock.now) * 0.5f64.powi(HALVINGS);
         let controlled = demands.fixed_step.is_none();
         let mut halved = false;
-        while until - moment.time > 1e-12 * until.abs().max(1.0) {
-            let remaining = until - moment.time;
+        let mut first = true;
+        while until - moment.state.clock.now > 1e-12 * until.abs().max(1.0) {
+            let remaining = until - moment.state.clock.now;
             let wanted = demands.fixed_step.filter(|_| !halved).unwrap_or(moment.step.min(demands.max_step));
             let count = (remaining / wanted - 1e-6).ceil().max(1.0);
             let h = remaining / count;
+            // The way to the next output time rarely divides into the steps of the last one. A factor for nearly the same step would be kept,
+            // but converges more slowly than it did; judged by what it did, the iteration would end too soon.
+            if first && (h - self.tried).abs() > 1e-6 * h {
+                bench.newton.forget();
+            }
+            (self.tried, first) = (h, false);
             let guarded = moment.guard > 0;
             let recorded = if let Stages::Record(kept) = &bench.stages { kept.len() } else { 0 };
             let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };
@@ -113,7 +124,7 @@ impl Controller {
                     let rough = controlled && ratio > 1.2;
                     self.tally.unresolved += usize::from(rough);
                     self.tally.error = self.tally.error.max(ratio);
-                    self.accept(moment, h, if count == 1.0 { until } else { moment.time + h });
+                    self.accept(moment, h, if count == 1.0 { until } else { moment.state.clock.now + h });
                     let State { u, v, holds, .. } = &mut moment.state;
                     bench.line.hold(u, v, holds);
                     moment.guard = if rough { GUARDED_STEPS } else { moment.guard.saturating_sub(1) };
@@ -136,12 +147,12 @@ impl Controller {
                     halved = true;
                     bench.newton.forget();
                     if moment.step < smallest {
-                        return Err(Failure { time: moment.time + h, step: h, stall: failed.err() });
+                        return Err(Failure { time: moment.state.clock.now + h, step: h, stall: failed.err() });
                     }
                 }
             }
         }
-        moment.time = until;
+        moment.state.clock.now = until;
         Ok(())
     }
 
@@ -157,7 +168,7 @@ impl Controller {
             let scheme: &mut dyn Scheme = if leg.guarded { &mut self.guard } else { self.scheme.as_mut() };
             self.next.holds.copy_from(&change.state.holds);
             scheme.step(bench, change, leg.h, &mut self.next)?;
-            let time = change.time + leg.h;
+            let time = change.state.clock.now + leg.h;
             self.accept(change, leg.h, time);
             accepted(change, number);
         }
@@ -170,7 +181,7 @@ impl Controller {
         std::mem::swap(&mut moment.state.u, &mut self.next.u);
         std::mem::swap(&mut moment.state.v, &mut self.next.v);
         moment.last_step = h;
-        moment.time = time;
+        moment.state.clock.now = time;
     }
 }
 
@@ -183,6 +194,6 @@ fn next_step(h: f64, ratio: f64, order: f64) -> f64 {
 /// A moment of a line, all zero and at rest.
 pub fn at_rest(line: &dyn Line, time: f64, step: f64) -> Moment {
     let nodes = line.mesh().nodes();
-    let state = State { holds: Field::new(line.holding_nodes()), ..State::new(nodes) };
-    Moment { time, state, earlier: Field::new(nodes), last_step: 0.0, step, guard: 0 }
+    let state = State { clock: Clock::at_rest(time), holds: Field::new(line.holding_nodes()), ..State::new(nodes) };
+    Moment { state, earlier: Field::new(nodes), last_step: 0.0, step, guard: 0 }
 }

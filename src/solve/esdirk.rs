@@ -96,17 +96,17 @@ impl Esdirk {
         if i > 1 {
             // Through the start and the stage before.
             let factor = tableau.nodes[i] / tableau.nodes[i - 1];
-            next.a.set_sum(&start.a, factor, &self.accelerations[i - 1]);
-            next.a.add(-factor, &start.a);
+            next.a.set_sum([(1.0 - factor, &start.a), (factor, &self.accelerations[i - 1])]);
         }
-        next.v.set_sum(&start.v, diagonal, &next.a);
-        self.base.copy_from(&start.u);
+        next.v.set_sum([(1.0, &start.v), (diagonal, &next.a)]);
         for j in 0..i {
             next.v.add(h * tableau.below[i][j], &self.accelerations[j]);
-            self.base.add(h * tableau.below[i][j], &self.velocities[j]);
         }
-        next.u.set_sum(&self.base, diagonal, &next.v);
-        bench.prescribe(next, &bench.path.at(from.time + tableau.nodes[i] * h));
+        next.u.set_sum([(1.0, &start.u), (diagonal, &next.v)]);
+        for j in 0..i {
+            next.u.add(h * tableau.below[i][j], &self.velocities[j]);
+        }
+        bench.prescribe(next, from.clock_after(tableau.nodes[i] * h));
         let weights = Weights { u: diagonal * diagonal, v: diagonal, a: 1.0 };
         bench.solve(&weights, next)?;
         self.velocities[i].copy_from(&next.v);

@@ -37,9 +37,7 @@ impl GeneralizedAlpha {
 
 /// to = (1 - alpha)·end + alpha·start.
 fn blend(to: &mut Field, alpha: f64, end: &Field, start: &Field) {
-    to.copy_from(end);
-    to.add(-alpha, end);
-    to.add(alpha, start);
+    to.set_sum([(1.0 - alpha, end), (alpha, start)]);
 }
 
 impl Scheme for GeneralizedAlpha {
@@ -47,30 +45,27 @@ impl Scheme for GeneralizedAlpha {
         let start = &from.state;
         predict(from, h, &mut next.a);
         let finish = |next: &mut State| {
-            next.v.set_sum(&start.v, h * (1.0 - GAMMA), &start.a);
-            next.v.add(h * GAMMA, &next.a);
-            next.u.set_sum(&start.u, h, &start.v);
-            next.u.add(h * h * (0.5 - BETA), &start.a);
-            next.u.add(h * h * BETA, &next.a);
+            let square = h * h;
+            next.v.set_sum([(1.0, &start.v), (h * (1.0 - GAMMA), &start.a), (h * GAMMA, &next.a)]);
+            next.u.set_sum([(1.0, &start.u), (h, &start.v), (square * (0.5 - BETA), &start.a), (square * BETA, &next.a)]);
         };
         finish(next);
-        bench.prescribe(next, &bench.path.at(from.time + h));
+        bench.prescribe(next, from.clock_after(h));
         blend(&mut self.between.u, ALPHA_F, &next.u, &start.u);
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
         self.between.holds.copy_from(&next.holds);
-        let driving = bench.path.at(from.time + (1.0 - ALPHA_F) * h).acceleration;
-        self.between.a.set_position(bench.line.last(), &driving);
+        self.between.clock = from.clock_after((1.0 - ALPHA_F) * h);
+        bench.prescribe_order(2, &mut self.between.a, self.between.clock);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };
         bench.solve(&weights, &mut self.between)?;
 
-        next.a.set_sum(&self.between.a, -ALPHA_M, &start.a);
-        next.a.data_mut().iter_mut().for_each(|x| *x /= 1.0 - ALPHA_M);
+        let whole = 1.0 / (1.0 - ALPHA_M);
+        next.a.set_sum([(whole, &self.between.a), (-ALPHA_M * whole, &start.a)]);
         finish(next);
-        bench.prescribe(next, &bench.path.at(from.time + h));
-        self.error.copy_from(&next.a);
-        self.error.add(-1.0, &start.a);
-        self.error.data_mut().iter_mut().for_each(|x| *x *= h * h * (BETA - 1.0 / 6.0));
+        bench.prescribe(next, from.clock_after(h));
+        let share = h * h * (BETA - 1.0 / 6.0);
+        self.error.set_sum([(share, &next.a), (-share, &start.a)]);
         bench.filter(next, &mut self.error, &mut self.scratch);
         Ok(largest_position(&self.error))
     }

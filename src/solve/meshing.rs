@@ -1,38 +1,83 @@
 //! The mesh of a line of a scene: as given, or chosen to meet the tolerance.
 
+use crate::algebra::shape::Shape;
 use crate::rod::catenary::Catenary;
-use crate::rod::grading::{self, Rules, Sample, Station};
-use crate::rod::mesh::{Mesh, Properties};
+use crate::rod::grading::{self, Rules, Sample};
+use crate::rod::line as discrete;
+use crate::rod::mesh::{Mesh, Part, Properties};
 use crate::rod::physics;
-use crate::scene::types::{Line, Motion, Scene, Surface};
+use crate::rod::state::State;
+use crate::scene::types::{Line, Motion, SAME_PLACE, Scene, Surface};
+use crate::sea::waves::Waves;
+use crate::solve::newton::motion;
 use crate::solve::start::{Bounds, Frame};
 use nalgebra::Vector3;
+use std::f64::consts::TAU;
 
 /// Inertia and drag move the touchdown farther than the fairlead's motion would at rest: the motion counts this many times.
 const DYNAMIC: f64 = 1.6;
+/// Samples per element of a shape on which a grading is based.
+const PER_ELEMENT: usize = 4;
 /// Samples along the line on which the grading is based.
 const SAMPLES: usize = 400;
 
-/// The mesh of line `index` of a scene, `finer` times finer than the tolerance asks where the mesh is left to the program.
-pub fn mesh_of(scene: &Scene, line: &Line, finer: f64) -> Mesh {
+/// The mesh of a line of a scene, `finer` times finer than the tolerance asks where the mesh is left to the program; it is then graded
+/// by shapes that the line takes. Where something acts on the line, a section is cut; an element count given for it is shared out among
+/// its parts.
+pub fn mesh_of(scene: &Scene, line: &Line, shapes: &[Vec<Sample>], finer: f64) -> Mesh {
     let sections = Mesh::properties(scene, line);
     let given: Vec<(f64, Option<usize>)> = line.sections.iter().rev().map(|section| (section.length, section.elements)).collect();
     let stations = if given.iter().any(|(_, elements)| elements.is_none()) {
-        wanted(scene, line, &sections, &given, finer)
+        grading::stations(&rules(scene, line, finer), shapes)
     } else {
         Vec::new()
     };
+    let points = points(line);
+    let near = |s: f64, at: f64| (s - at).abs() <= SAME_PLACE * line.length();
     let mut start = 0.0;
-    let mut lengths = Vec::new();
-    for (length, elements) in &given {
+    let mut parts = Vec::new();
+    let (of_sections, mut elasticities) = (Mesh::elasticities(scene, line), Vec::new());
+    for (number, ((length, elements), properties)) in given.iter().zip(sections).enumerate() {
         let end = start + length;
-        lengths.push(match elements {
-            Some(count) => vec![length / *count as f64; *count],
-            None => grading::divide(&stations, start, end, if given.len() == 1 { 4 } else { 2 }),
-        });
+        let inside = points.iter().copied().filter(|s| *s > start && *s < end && !near(*s, start) && !near(*s, end));
+        let cuts: Vec<f64> = [start].into_iter().chain(inside).chain([end]).collect();
+        let counts = elements.map(|count| shared_out(count, &cuts));
+        for (part, ends) in cuts.windows(2).enumerate() {
+            let (from, to) = (ends[0], ends[1]);
+            let lengths = match &counts {
+                Some(counts) => vec![(to - from) / counts[part] as f64; counts[part]],
+                None => grading::divide(&stations, from, to, if given.len() == 1 && cuts.len() == 2 { 4 } else { 2 }),
+            };
+            elasticities.extend(of_sections.get(number).cloned());
+            parts.push(Part { properties, lengths, after_point: points.iter().any(|s| near(*s, from)) });
+        }
         start = end;
     }
-    Mesh::new(sections, &lengths)
+    Mesh { elasticities, ..Mesh::of_parts(parts) }
+}
+
+/// Arc lengths from the anchor at which something acts on a line between its ends, rising.
+fn points(line: &Line) -> Vec<f64> {
+    let length = line.length();
+    let given = line.attachments.iter().map(|body| body.s).chain(line.constraints.iter().map(|constraint| constraint.s));
+    let mut points: Vec<f64> = given.map(|s| length - s).collect();
+    points.retain(|s| line.end_at(length - s).is_none());
+    points.sort_by(f64::total_cmp);
+    points.dedup_by(|a, b| (*a - *b).abs() <= SAME_PLACE * length);
+    points
+}
+
+/// Shares a number of elements out among the parts between cuts in proportion to their lengths, at least one each.
+fn shared_out(count: usize, cuts: &[f64]) -> Vec<usize> {
+    let parts = cuts.len() - 1;
+    let (count, length) = (count.max(parts), cuts[parts] - cuts[0]);
+    let mut given = 0;
+    let share = |part: usize| {
+        let goal = ((cuts[part + 1] - cuts[0]) / length * count as f64).round() as usize;
+        let upto = goal.clamp(given + 1, count - (parts - 1 - part));
+        upto - std::mem::replace(&mut given, upto)
+    };
+    (0..parts).map(share).collect()
 }
 
 /// Whether the program chooses any part of the mesh.
@@ -48,12 +93,41 @@ pub fn bounds(scene: &Scene) -> Bounds {
     }
 }
 
-fn wanted(scene: &Scene, line: &Line, sections: &[Properties], given: &[(f64, Option<usize>)], finer: f64) -> Vec<Station> {
-    let lengths: Vec<Vec<f64>> = given.iter().map(|(length, _)| vec![*length]).collect();
-    let whole = Mesh::new(sections.to_vec(), &lengths);
-    let anchor = Vector3::from(line.anchor);
-    let places = fairlead_places(&scene.motion, &Vector3::from(line.fairlead));
-    let positions: Vec<Vec<Sample>> = places.iter().map(|fairlead| samples(&whole, &bounds(scene), &anchor, fairlead)).collect();
+/// A line of a scene as it is made, before it is meshed: one element per section.
+fn whole(scene: &Scene, line: &Line) -> Mesh {
+    let lengths: Vec<Vec<f64>> = line.sections.iter().rev().map(|section| vec![section.length]).collect();
+    Mesh::new(Mesh::properties(scene, line), &lengths)
+}
+
+/// Shapes of a line of a scene with its fairlead in several places, as catenaries of its mean weight.
+pub fn catenaries(scene: &Scene, line: &Line) -> Vec<Vec<Sample>> {
+    let (whole, anchor) = (whole(scene, line), Vector3::from(line.anchor));
+    fairlead_places(scene, line).iter().map(|fairlead| samples(&whole, &bounds(scene), &anchor, fairlead)).collect()
+}
+
+/// The shape of a line in equilibrium; at a joint at which something acts both sides of the kink are there.
+pub fn shape_of(line: &dyn discrete::Line, state: &State) -> Vec<Sample> {
+    let (mesh, u) = (line.mesh(), &state.u);
+    let mut forces = vec![Vector3::zeros(); mesh.nodes()];
+    line.node_forces(&motion(state), &mut forces);
+    let mut shape = Vec::new();
+    for (e, element) in mesh.elements.iter().enumerate().filter(|(_, element)| !element.is_joint()) {
+        let carried = line.touching_length(u, e) > 0.5 * element.length;
+        for k in 0..=PER_ELEMENT {
+            let x = k as f64 / PER_ELEMENT as f64;
+            let n = Shape::at(x).scaled(element.length);
+            let at = |n: &[f64; 4]| u.position(e) * n[0] + u.slope(e) * n[1] + u.position(e + 1) * n[2] + u.slope(e + 1) * n[3];
+            let (slope, height) = (at(&n.slope), at(&n.value).z);
+            let tension = (1.0 - x) * forces[e].norm() + x * forces[e + 1].norm();
+            shape.push(Sample { s: element.start + x * element.length, tension, slope, height, carried });
+        }
+    }
+    shape
+}
+
+fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
+    let whole = whole(scene, line);
+    let places = fairlead_places(scene, line);
     let mean = |f: &dyn Fn(&Properties) -> f64| {
         whole.elements.iter().map(|e| e.length * f(&whole.sections[e.section])).sum::<f64>() / whole.length
     };
@@ -64,26 +138,33 @@ fn wanted(scene: &Scene, line: &Line, sections: &[Properties], given: &[(f64, Op
     } else {
         ground.resistance.iter().map(|r| r.stiffness).fold(f64::INFINITY, f64::min)
     };
-    let drop = places.iter().map(|fairlead| (fairlead.z - anchor.z).abs()).fold(0.0, f64::max);
-    let rules = Rules {
+    let drop = places.iter().map(|fairlead| (fairlead.z - line.anchor[2]).abs()).fold(0.0, f64::max);
+    let sea = Waves::of(&scene.environment).map(|waves| waves.mean());
+    Rules {
         length: whole.length,
         refinement: finer * (1.0e-3 / scene.solver.tolerance).powf(0.39),
         stiffness: stiffness.max(f64::MIN_POSITIVE),
         mass: mean(&|p| p.mass + p.added_normal),
         ei: mean(&|p| p.ei),
-        period: match scene.motion {
-            Motion::Sinusoidal { period, .. } => period,
+        period: match (&scene.motion, sea) {
+            (Motion::Sinusoidal { period, .. }, None) => *period,
+            (Motion::Sinusoidal { period, .. }, Some((omega, _))) => period.min(TAU / omega),
+            (_, Some((omega, _))) => TAU / omega,
             _ => 0.0,
         },
+        wave_number: sea.map_or(0.0, |(_, k)| k),
         shortest: (whole.length / 400.0).max(0.02 * drop).min(whole.length / 20.0) / finer,
-    };
-    grading::stations(&rules, &positions)
+    }
 }
 
 /// Places of the fairlead, at rest, that bound what its motion does to the line.
-fn fairlead_places(motion: &Motion, fairlead: &Vector3<f64>) -> Vec<Vector3<f64>> {
-    let mut places = vec![*fairlead];
-    if let Motion::Sinusoidal { sine, cosine, .. } = motion {
+pub fn fairlead_places(scene: &Scene, line: &Line) -> Vec<Vector3<f64>> {
+    let fairlead = Vector3::from(line.fairlead);
+    let mut places = vec![fairlead];
+    if !line.is_pinned(0.0) {
+        return places;
+    }
+    if let Motion::Sinusoidal { sine, cosine, .. } = &scene.motion {
         let (sine, cosine) = (Vector3::from(*sine), Vector3::from(*cosine));
         for k in 0..8 {
             let (s, c) = (k as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
@@ -99,7 +180,8 @@ fn samples(mesh: &Mesh, bounds: &Bounds, anchor: &Vector3<f64>, fairlead: &Vecto
         .map(|k| {
             let s = mesh.length * k as f64 / SAMPLES as f64;
             let (tension, carried) = frame.tension(s);
-            Sample { s, tension, slope: frame.at(s).1, carried }
+            let (place, slope) = frame.at(s);
+            Sample { s, tension, slope, height: place.z, carried }
         })
         .collect()
 }

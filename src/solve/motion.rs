@@ -1,6 +1,7 @@
 //! Paths of a fairlead: position, velocity and acceleration at any time.
 
 use crate::algebra::shape::Shape;
+use crate::algebra::sinusoid::Sinusoid;
 use crate::scene::motion_file::Table;
 use crate::scene::read::Loaded;
 use crate::scene::types::Motion;
@@ -23,18 +24,12 @@ pub struct Kinematics {
 pub enum Path {
     /// At rest at a point.
     Fixed(Vector3<f64>),
-    /// `origin` + (sine·sin wt + cosine·cos wt)·S(t/ramp), S = xi²(3 - 2 xi) up to the end of the ramp, then 1.
+    /// A sinusoidal motion, eased in, about a point.
     Sinusoidal {
         /// Mean position [m].
         origin: Vector3<f64>,
-        /// Angular frequency [rad/s].
-        omega: f64,
-        /// Amplitude of the sine [m].
-        sine: Vector3<f64>,
-        /// Amplitude of the cosine [m].
-        cosine: Vector3<f64>,
-        /// Length of the ramp [s]; 0 = none.
-        ramp: f64,
+        /// Offset from it [m].
+        offset: Sinusoid,
     },
     /// Piecewise cubic Hermite through a table, at rest outside it.
     Table(Arc<Table>),
@@ -52,13 +47,9 @@ impl Path {
     pub fn of_scene(loaded: &Loaded, index: usize) -> Path {
         let origin = loaded.scene.lines.get(index).map_or(Vector3::zeros(), |line| line.fairlead.into());
         match (&loaded.scene.motion, &loaded.motion) {
-            (Motion::Sinusoidal { period, sine, cosine, ramp }, _) => Path::Sinusoidal {
-                origin,
-                omega: 2.0 * std::f64::consts::PI / period,
-                sine: (*sine).into(),
-                cosine: (*cosine).into(),
-                ramp: ramp.unwrap_or(3.25 * period),
-            },
+            (Motion::Sinusoidal { period, sine, cosine, ramp }, _) => {
+                Path::Sinusoidal { origin, offset: Sinusoid::new(*period, *sine, *cosine, *ramp) }
+            }
             (Motion::File { .. }, Some(table)) => Path::Table(Arc::clone(table)),
             _ => Path::Fixed(origin),
         }
@@ -68,13 +59,9 @@ impl Path {
     pub fn at(&self, time: f64) -> Kinematics {
         match self {
             Path::Fixed(position) => Kinematics::at_rest(*position),
-            Path::Sinusoidal { origin, omega, sine, cosine, ramp } => {
-                let (sin, cos) = (omega * time).sin_cos();
-                let x = sine * sin + cosine * cos;
-                let v = (sine * cos - cosine * sin) * *omega;
-                let a = -x * (omega * omega);
-                let (s, s1, s2) = ramp_at(time, *ramp);
-                Kinematics { position: origin + x * s, velocity: v * s + x * s1, acceleration: a * s + v * (2.0 * s1) + x * s2 }
+            Path::Sinusoidal { origin, offset } => {
+                let [x, velocity, acceleration] = offset.at(time);
+                Kinematics { position: origin + x, velocity, acceleration }
             }
             Path::Table(table) => interpolate(table, time),
             Path::Polynomial { start, coefficients } => {
@@ -96,15 +83,6 @@ impl Kinematics {
     pub fn at_rest(position: Vector3<f64>) -> Kinematics {
         Kinematics { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
     }
-}
-
-/// The ramp S = xi²(3 - 2 xi), xi = t/ramp, and its first and second derivative; 1 without a ramp and after it.
-fn ramp_at(time: f64, ramp: f64) -> (f64, f64, f64) {
-    if !(ramp > 0.0) || time >= ramp {
-        return (1.0, 0.0, 0.0);
-    }
-    let xi = (time / ramp).max(0.0);
-    (xi * xi * (3.0 - 2.0 * xi), 6.0 * xi * (1.0 - xi) / ramp, (6.0 - 12.0 * xi) / (ramp * ramp))
 }
 
 /// Cubic Hermite interpolation of a table; before the first and after the last row the fairlead rests there.
@@ -136,8 +114,8 @@ mod tests {
         };
         let (sine, cosine) = (Vector3::new(5.0, 2.0, 1.0), Vector3::new(0.3, 0.0, 1.0));
         let paths = [
-            Path::Sinusoidal { origin: Vector3::x(), omega: 0.9, sine, cosine, ramp: 20.0 },
-            Path::Sinusoidal { origin: Vector3::x(), omega: 0.9, sine, cosine, ramp: 0.0 },
+            Path::Sinusoidal { origin: Vector3::x(), offset: Sinusoid { omega: 0.9, sine, cosine, ramp: 20.0 } },
+            Path::Sinusoidal { origin: Vector3::x(), offset: Sinusoid { omega: 0.9, sine, cosine, ramp: 0.0 } },
             Path::Table(Arc::new(table)),
             Path::Polynomial { start: 1.0, coefficients: vec![sine, cosine, sine, cosine] },
         ];

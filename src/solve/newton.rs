@@ -77,7 +77,7 @@ const STALE: f64 = 0.3;
 /// Damped iterations before giving up.
 const DAMPED: usize = 25;
 /// Contraction beyond which the tangent is factored anew.
-const SLOW: f64 = 0.25;
+const SLOW: f64 = 0.15;
 
 impl Newton {
     /// A solver for a line.
@@ -274,5 +274,5 @@ impl Newton {
 
 /// The motion of a state.
 pub fn motion(state: &State) -> Motion<'_> {
-    Motion { u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }
+    Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }
 }

@@ -43,14 +43,17 @@ pub struct NodeOutput {
     pub tangent: Vector3<f64>,
     /// Effective tension, positive pulling [N].
     pub tension: f64,
+    /// Tension of the wall [N], where the pressures on it are known: T - p_o A_o + p_i A_i.
+    pub wall_tension: Option<f64>,
 }
 
 /// Outputs of a state. End forces and node tensions are consistent nodal reactions, not stiffness times strain: 10 to 40 times
-/// more accurate on the same mesh.
-pub fn outputs(line: &dyn Line, state: &State, time: f64, work: f64) -> Outputs {
+/// more accurate on the same mesh. `forces` is room for those of the nodes.
+pub fn outputs(line: &dyn Line, state: &State, time: f64, work: f64, forces: &mut Vec<Vector3<f64>>) -> Outputs {
     let last = line.last();
-    let mut forces = vec![Vector3::zeros(); last + 1];
-    line.node_forces(&motion(state), &mut forces);
+    forces.clear();
+    forces.resize(last + 1, Vector3::zeros());
+    line.node_forces(&motion(state), forces);
     let (force, anchor_force) = (-forces[last], forces[0]);
     Outputs {
         time,
@@ -68,15 +71,17 @@ pub fn outputs(line: &dyn Line, state: &State, time: f64, work: f64) -> Outputs 
 }
 
 /// Change of the outputs for a change of the state, by a central difference of the output functions with a step of ± `step` times
-/// the change. Time and work are zero.
-pub fn along(line: &dyn Line, state: &State, change: &State, step: f64) -> Outputs {
-    let moved = |factor: f64| {
+/// the change, of which `seconds` is the change of time. Time and work are zero.
+pub fn along(line: &dyn Line, state: &State, change: &State, seconds: f64, step: f64) -> Outputs {
+    let mut forces = Vec::new();
+    let mut moved = |factor: f64| {
         let mut moved = state.clone();
         moved.u.add(factor, &change.u);
         moved.v.add(factor, &change.v);
         moved.a.add(factor, &change.a);
         moved.holds.add(factor, &change.holds);
-        outputs(line, &moved, 0.0, 0.0)
+        moved.clock.now += factor * seconds;
+        outputs(line, &moved, 0.0, 0.0, &mut forces)
     };
     let (after, before) = (moved(step), moved(-step));
     let per = 0.5 / step;
@@ -127,18 +132,23 @@ pub fn end_along(line: &dyn Line, state: &State, change: &State) -> EndChange {
     }
 }
 
-/// Nodes of a state, from the fairlead; the second node of a joint is left out.
+/// Nodes of a state, from the fairlead. Of the two nodes of a joint one is left out, unless something acts there: then slope and
+/// tension jump, and both stand at one place.
 pub fn nodes(line: &dyn Line, state: &State) -> Vec<NodeOutput> {
     let mesh = line.mesh();
     let last = line.last();
     let mut forces = vec![Vector3::zeros(); last + 1];
     line.node_forces(&motion(state), &mut forces);
-    let kept = |node: &usize| *node == last || !mesh.elements[*node].is_joint();
+    let kept = |node: &usize| *node == last || !mesh.elements[*node].is_joint() || mesh.points.contains(node);
     let node_output = |node: usize| {
         let p = state.u.slope(node);
         let tangent = if p.norm() > 0.0 { -p.normalize() } else { Vector3::zeros() };
         let tension = forces[node].norm().copysign(-forces[node].dot(&tangent));
-        NodeOutput { s: mesh.length - mesh.node_arc_length(node), position: state.u.position(node), tangent, tension }
+        let position = state.u.position(node);
+        // At the end of a section the section below counts.
+        let pressures = mesh.elasticity_of(node.min(last - 1)).pressures;
+        let wall_tension = pressures.map(|pressures| tension - pressures.force(position.z));
+        NodeOutput { s: mesh.length - mesh.node_arc_length(node), position, tangent, tension, wall_tension }
     };
     (0..=last).rev().filter(kept).map(node_output).collect()
 }

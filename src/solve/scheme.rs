@@ -4,19 +4,18 @@ use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
 use crate::scene::types;
+use crate::sea::clock::Clock;
 use crate::solve::adams_moulton::AdamsMoulton;
 use crate::solve::esdirk::{ARK3, Esdirk};
 use crate::solve::generalized_alpha::GeneralizedAlpha;
-use crate::solve::motion::{Kinematics, Path};
+use crate::solve::motion::Path;
 use crate::solve::newton::{Criteria, Newton, Stall, motion};
 use crate::solve::tangent::{LinearStage, SolvedStage};
 
 /// The line in time: the state and what the predictor remembers of the step before.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
-    /// Time [s].
-    pub time: f64,
-    /// Unknowns and rates.
+    /// Unknowns and rates, and their time.
     pub state: State,
     /// Accelerations one step before.
     pub earlier: Field,
@@ -26,6 +25,13 @@ pub struct Moment {
     pub step: f64,
     /// Steps still to be taken by the L-stable method.
     pub guard: u32,
+}
+
+impl Moment {
+    /// The clock after `span` seconds.
+    pub fn clock_after(&self, span: f64) -> Clock {
+        Clock { now: self.state.clock.now + span, ..self.state.clock }
+    }
 }
 
 /// What a step works with.
@@ -38,6 +44,8 @@ pub struct Bench<'a> {
     pub path: &'a Path,
     /// When a stage is solved.
     pub criteria: Criteria,
+    /// Error of the positions that is small enough [m].
+    pub allowed: f64,
     /// What else happens to a stage.
     pub stages: Stages<'a>,
 }
@@ -53,23 +61,37 @@ pub enum Stages<'a> {
 }
 
 impl Bench<'_> {
-    /// Puts the fairlead where the path has it.
-    pub fn prescribe(&self, state: &mut State, at: &Kinematics) {
-        let last = self.line.last();
-        state.u.set_position(last, &at.position);
-        state.v.set_position(last, &at.velocity);
-        state.a.set_position(last, &at.acceleration);
+    /// Sets a state to a time, its fairlead where the path has it then, and locked nodes where their locks have them.
+    pub fn prescribe(&self, state: &mut State, clock: Clock) {
+        state.clock = clock;
+        for (order, field) in [&mut state.u, &mut state.v, &mut state.a].into_iter().enumerate() {
+            self.prescribe_order(order, field, clock);
+        }
+    }
+
+    /// The same for positions (order 0), velocities (1) or accelerations (2) alone.
+    pub fn prescribe_order(&self, order: usize, field: &mut Field, clock: Clock) {
+        let (last, at) = (self.line.last(), self.path.at(clock.now));
+        let prescribed = [at.position, at.velocity, at.acceleration][order];
+        for &(_, component) in self.line.fixed().iter().filter(|(node, component)| *node == last && *component < 3) {
+            field.component_mut(component)[last] = prescribed[component];
+        }
+        // Changes of the motion of a lock are zero, and stay so.
+        if !matches!(self.stages, Stages::Linear(_)) {
+            self.line.place(order, field, clock.now);
+        }
     }
 
     /// Passes an error of u through the stage matrix, J⁻¹ M e: what stiff waves that the step does not resolve contribute is damped
-    /// as the step itself damps it (Hosea & Shampine 1996). Needs the factor of the stage.
+    /// as the step itself damps it (Hosea & Shampine 1996). Needs the factor of the stage. An error that is small enough as it is
+    /// stays: nine of ten are.
     pub fn filter(&mut self, state: &State, error: &mut Field, scratch: &mut Field) {
-        if matches!(self.stages, Stages::Linear(_)) {
+        if matches!(self.stages, Stages::Linear(_)) || largest_position(error) <= self.allowed {
             return;
         }
         self.line.inertia(&motion(state), error, scratch);
         self.newton.solve_linear(self.line, scratch);
-        error.copy_from(scratch);
+        std::mem::swap(error, scratch);
     }
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
@@ -135,10 +157,6 @@ pub fn largest_position(field: &Field) -> f64 {
 
 /// Linear extrapolation of the accelerations to the end of a step, factor·(a - a_before) beyond a; constant without history.
 pub fn predict(from: &Moment, h: f64, a: &mut Field) {
-    a.copy_from(&from.state.a);
-    if from.last_step > 0.0 {
-        let factor = h / from.last_step;
-        a.add(factor, &from.state.a);
-        a.add(-factor, &from.earlier);
-    }
+    let factor = if from.last_step > 0.0 { h / from.last_step } else { 0.0 };
+    a.set_sum([(1.0 + factor, &from.state.a), (-factor, &from.earlier)]);
 }

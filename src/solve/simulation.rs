@@ -1,13 +1,14 @@
 //! The facade: one mooring line through statics and time. The command, the report and the FMU see nothing else of the solver.
 
 use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
+use crate::rod::grading::Sample;
 use crate::rod::line::{Line, Supports};
 use crate::rod::mesh::{Element, Mesh};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
 use crate::scene::types::Scene;
-use crate::solve::controller::{self, Controller, Demands, Failure};
+use crate::solve::controller::{self, Controller, Demands, Failure, Leg};
 use crate::solve::meshing;
 use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
@@ -64,6 +65,7 @@ pub struct Simulation {
     name: String,
     line: Box<dyn Line>,
     surroundings: Surroundings,
+    supports: Supports,
     decisions: Vec<Decision>,
     bounds: Bounds,
     anchor: Vector3<f64>,
@@ -73,20 +75,37 @@ pub struct Simulation {
     demands: Demands,
     moment: Moment,
     work: f64,
+    works: bool,
     fresh: bool,
     last: LastStep,
+    /// The state before the last `advance`.
+    before: Snapshot,
+    /// Room for the forces of the nodes.
+    forces: Vec<Vector3<f64>>,
 }
 
-/// Local error of the positions allowed in a step, as a share of tolerance × (tension / stiffness of the fairlead), at a tolerance
-/// of 1e-3; in proportion to the tolerance to the power 3/2, since the global error goes with the local one to the power 2/3.
+/// Steps already taken and linearised: what `derivative` goes along, as often as wanted.
+pub struct Linearised {
+    time: f64,
+    history: f64,
+    fresh: bool,
+    legs: Vec<Leg>,
+    states: Vec<State>,
+    stages: Vec<LinearStage>,
+}
+
+/// Local error of the positions allowed in a step, as a share of tolerance × (tension / stiffness of the fairlead). Below a tolerance of
+/// 1e-3 it shrinks with its power 0.7 besides, since the global error goes with about the local one to the power 2/3.
 /// Calibrated on the built-in case, where it gives about half the tolerance in the end tension.
-const ERROR_SHARE: f64 = 6.0e-3;
+const ERROR_SHARE: f64 = 1.1e-2;
 /// The finest step for the sake of the error, as a share of the longest.
 const FINEST_SHARE: f64 = 4.0e-3;
 /// Nor is a step made finer for that sake than this share of the time that an axial wave needs to cross an element.
 const CROSSING_SHARE: f64 = 0.1;
 /// Newton increments count as converged at this share of the tolerance.
-const NEWTON_SHARE: f64 = 0.01;
+const NEWTON_SHARE: f64 = 3.0e-3;
+/// And at most at this share of the displacement at which friction breaks away.
+const BREAKAWAY_SHARE: f64 = 0.05;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
 const MESH_SHARE: f64 = 0.3;
 
@@ -104,19 +123,27 @@ impl Simulation {
             });
         };
         let mut finer = 1.0;
-        let mut simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, finer));
+        let mut shapes = if meshing::is_automatic(line) { meshing::catenaries(scene, line) } else { Vec::new() };
+        let mut simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
         if !meshing::is_automatic(line) {
             return Ok(simulation);
+        }
+        if !(line.attachments.is_empty() && line.constraints.is_empty()) {
+            let found = simulation.shapes(&meshing::fairlead_places(scene, line));
+            if !found.is_empty() {
+                shapes = found;
+                simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
+            }
         }
         let tension =
             |simulation: &mut Simulation| simulation.settle(line.fairlead.into(), 0.0).ok().map(|_| simulation.outputs().tension);
         let allowed = MESH_SHARE * scene.solver.tolerance;
         for _ in 0..3 {
-            let mut halved = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, 2.0 * finer));
+            let mut halved = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
             match (tension(&mut simulation), tension(&mut halved)) {
                 (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * fine => {
                     finer *= 1.5;
-                    simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, finer));
+                    simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
                 }
                 (None, Some(_)) => simulation = halved,
                 _ => break,
@@ -125,20 +152,36 @@ impl Simulation {
         Ok(simulation)
     }
 
+    /// Shapes of the line at rest with its fairlead in several places, as far as they are found.
+    fn shapes(&mut self, fairleads: &[Vector3<f64>]) -> Vec<Vec<Sample>> {
+        let mut found = Vec::new();
+        for fairlead in fairleads {
+            if self.settle(*fairlead, 0.0).is_ok() {
+                found.push(meshing::shape_of(self.line.as_ref(), &self.moment.state));
+            }
+        }
+        found
+    }
+
     /// Line number `index` of a checked scene on a given mesh.
-    fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Simulation {
-        let (decisions, nodes, length) = (physics::decisions(scene, &mesh), mesh.nodes(), mesh.length);
+    fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Result<Simulation, Error> {
+        let supports = physics::supports(scene, &scene.lines[index], &mesh);
+        let (decisions, nodes, length) = (physics::decisions(scene, &mesh, &supports), mesh.nodes(), mesh.length);
         let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
         let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
-        let (surroundings, supports) = (Surroundings::of(scene, &mesh), Supports::pinned(&mesh));
-        let line = physics::build(mesh, surroundings.clone(), supports);
+        let surroundings = Surroundings::of(scene, &mesh);
+        let line = physics::build(mesh, surroundings.clone(), supports.clone());
         let solver = &scene.solver;
         // A fixed step is asked for to compare: nothing but the step shall be seen in the result.
-        let share = if solver.fixed_step.is_some() { 0.01 * NEWTON_SHARE } else { NEWTON_SHARE };
-        let criteria = Criteria { tolerance: (share * solver.tolerance).clamp(1e-11, 1e-4), length, iterations: 12 };
-        Simulation {
+        let share = if solver.fixed_step.is_some() { 1.0e-4 } else { NEWTON_SHARE };
+        // Where friction holds the line, what the iteration leaves must be small against the way to breaking away.
+        let holding = surroundings.breakaway().map_or(f64::INFINITY, |breakaway| BREAKAWAY_SHARE * breakaway / length);
+        let tolerance = (share * solver.tolerance).clamp(1e-11, 1e-4).min(holding);
+        let criteria = Criteria { tolerance, length, iterations: 12 };
+        let mut simulation = Simulation {
             name: scene.lines[index].name.clone(),
             surroundings,
+            supports,
             decisions,
             bounds: meshing::bounds(scene),
             anchor: scene.lines[index].anchor.into(),
@@ -155,19 +198,50 @@ impl Simulation {
             moment: controller::at_rest(line.as_ref(), 0.0, solver.max_step),
             line,
             work: 0.0,
+            works: false,
             fresh: true,
             last: LastStep::default(),
+            before: Snapshot::new(nodes),
+            forces: Vec::new(),
+        };
+        simulation.find_references(scene.lines[index].fairlead.into())?;
+        Ok(simulation)
+    }
+
+    /// Where the scene leaves the reference of a constraint open, it is where the node is in equilibrium without its springs and
+    /// locks.
+    fn find_references(&mut self, fairlead: Vector3<f64>) -> Result<(), Error> {
+        if self.supports.holds.iter().all(|hold| hold.reference.is_some()) {
+            return Ok(());
         }
+        self.settle(fairlead, 0.0)?;
+        for hold in &mut self.supports.holds {
+            hold.reference.get_or_insert(self.moment.state.u.position(hold.node));
+        }
+        self.line = physics::build(self.line.mesh().clone(), self.surroundings.clone(), self.supports.clone());
+        Ok(())
+    }
+
+    /// Where an end is held, or else where the scene has it: the place from which statics starts.
+    fn start_of(&self, node: usize, pinned: Vector3<f64>) -> Vector3<f64> {
+        self.supports.holds.iter().find(|hold| hold.node == node).and_then(|hold| hold.reference).unwrap_or(pinned)
+    }
+
+    /// From now on the work done on the vessel is summed up over the steps; unasked it stays zero, since it costs an end force in
+    /// every step.
+    pub fn sum_up_work(&mut self) {
+        self.works = true;
     }
 
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
     /// On `Err(Error::Statics)` the best state found stands, so that it can be looked at.
     pub fn settle(&mut self, fairlead: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
         self.moment = controller::at_rest(self.line.as_ref(), time, self.demands.max_step);
-        start::guess(self.line.mesh(), &self.bounds, &self.anchor, &fairlead, &mut self.moment.state.u);
-        let (balance, smooth) = self.balance();
-        self.demands.error =
-            ERROR_SHARE * (self.tolerance / 1.0e-3).sqrt() * self.tolerance * self.tension_length(smooth.as_ref());
+        let (anchor, fairlead) = (self.start_of(0, self.anchor), self.start_of(self.line.last(), fairlead));
+        start::guess(self.line.mesh(), &self.bounds, &anchor, &fairlead, &mut self.moment.state.u);
+        self.line.place(0, &mut self.moment.state.u, time);
+        let (balance, tension_length) = self.balance();
+        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * tension_length;
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
@@ -185,40 +259,42 @@ impl Simulation {
     }
 
     /// Finds the equilibrium without friction, and from there, if there is friction, that of the line as it is laid and the places of the
-    /// bed that hold it there; returns the line without friction, too.
-    fn balance(&mut self) -> (Balance, Box<dyn Line>) {
-        let (surroundings, rough) = (&self.surroundings, self.line.holding_nodes() > 0);
-        let build = |limit: f64, laid: bool| {
-            let mut mesh = self.line.mesh().clone();
-            mesh.sections.iter_mut().for_each(|section| section.ea = section.ea.min(limit));
-            let (surroundings, supports) =
-                (if laid { surroundings.laid(&mesh) } else { surroundings.without_friction() }, Supports::pinned(&mesh));
-            physics::build(mesh, surroundings, supports)
+    /// bed that hold it there; returns the tension length without friction, too.
+    fn balance(&mut self) -> (Balance, f64) {
+        let (mesh, surroundings, supports) = (self.line.mesh(), &self.surroundings, &self.supports);
+        let soften = |limit: f64, surroundings: Surroundings| {
+            let mut soft = mesh.clone();
+            for (number, section) in soft.sections.iter_mut().enumerate().filter(|(_, section)| section.ea > limit) {
+                if let Some(elasticity) = soft.elasticities.get_mut(number) {
+                    *elasticity = elasticity.scaled(limit / section.ea);
+                }
+                section.ea = limit;
+            }
+            physics::build(soft, surroundings, supports.clone())
         };
-        let (smooth, state, newton) = (build(f64::INFINITY, false), &mut self.moment.state, &mut self.newton);
-        let mut balance = statics::settle(smooth.as_ref(), &|limit| build(limit, false), newton, state);
-        if rough && balance.converged() {
-            let (laid, before) = (build(f64::INFINITY, true), balance.iterations);
+        let (line, newton, state) = (self.line.as_ref(), &mut self.newton, &mut self.moment.state);
+        if line.holding_nodes() == 0 {
+            let balance = statics::settle(line, &|limit| soften(limit, surroundings.clone()), newton, state);
+            return (balance, tension_length(line, newton, state));
+        }
+        let smooth = soften(f64::INFINITY, surroundings.without_friction());
+        let mut balance = statics::settle(smooth.as_ref(), &|limit| soften(limit, surroundings.without_friction()), newton, state);
+        if balance.converged() {
+            let laid = soften(f64::INFINITY, surroundings.laid(mesh));
             laid.lay(&state.u, &mut state.holds);
-            balance = statics::settle(laid.as_ref(), &|limit| build(limit, true), newton, state);
+            let before = balance.iterations;
+            balance = statics::settle(laid.as_ref(), &|limit| soften(limit, surroundings.laid(mesh)), newton, state);
             balance.iterations += before;
             laid.hold(&state.u, &state.v, &mut state.holds);
         }
-        (balance, smooth)
-    }
-
-    /// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
-    fn tension_length(&mut self, line: &dyn Line) -> f64 {
-        let length = line.mesh().length;
-        let tension = line.end_force(&motion(&self.moment.state)).norm();
-        let stiffness = self.newton.fairlead_stiffness(line, &self.moment.state).map_or(0.0, |k| k.norm());
-        if stiffness > 0.0 { (tension / stiffness).clamp(1e-5 * length, 0.02 * length) } else { 0.02 * length }
+        (balance, tension_length(smooth.as_ref(), newton, state))
     }
 
     /// Advances to a time with the fairlead on a path. On an error the state is the one before the call.
     pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
-        let before = (self.moment.clone(), self.work, self.fresh);
         self.check_path(until, path)?;
+        self.before.moment.copy_from(&self.moment);
+        (self.before.work, self.before.fresh, self.before.last) = (self.work, self.fresh, self.last);
         let effort = self.newton.effort;
         let steps = self.controller.tally.steps;
         self.controller.tally.error = 0.0;
@@ -233,25 +309,33 @@ impl Simulation {
                 Ok(())
             }
             Err(failure) => {
-                let stuck = self.stuck(&failure, path, before.0.time);
-                (self.moment, self.work, self.fresh) = before;
-                self.newton.forget();
+                let stuck = self.stuck(&failure, path, self.before.moment.state.clock.now);
+                self.undo();
                 Err(Error::Step(Box::new(stuck)))
             }
         }
     }
 
+    /// Takes the last `advance` back.
+    pub fn undo(&mut self) {
+        std::mem::swap(&mut self.moment, &mut self.before.moment);
+        (self.work, self.fresh, self.last) = (self.before.work, self.before.fresh, self.before.last);
+        self.newton.forget();
+    }
+
     fn run(&mut self, until: f64, path: &Path) -> Result<(), Failure> {
         let line = self.line.as_ref();
-        let mut force = line.end_force(&motion(&self.moment.state));
-        let mut place = self.moment.state.u.position(line.last());
+        let end = |moment: &Moment| (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
+        let mut before = self.works.then(|| end(&self.moment));
         let work = &mut self.work;
-        let criteria = self.demands.criteria;
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Solve };
+        let (criteria, allowed) = (self.demands.criteria, self.demands.error);
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Solve };
         self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment, _| {
-            let (force_now, place_now) = (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
-            *work += 0.5 * (force + force_now).dot(&(place_now - place));
-            (force, place) = (force_now, place_now);
+            if let Some((force, place)) = &mut before {
+                let (force_now, place_now) = end(moment);
+                *work += 0.5 * (*force + force_now).dot(&(place_now - *place));
+                (*force, *place) = (force_now, place_now);
+            }
         })
     }
 
@@ -260,19 +344,28 @@ impl Simulation {
         if !std::mem::take(&mut self.fresh) {
             return Ok(());
         }
-        let (time, criteria) = (self.moment.time, self.demands.criteria);
-        let mut bench = Bench { line: self.line.as_ref(), newton: &mut self.newton, path, criteria, stages: Stages::Solve };
+        let (time, criteria) = (self.moment.state.clock.now, self.demands.criteria);
+        let mut bench = Bench {
+            line: self.line.as_ref(),
+            newton: &mut self.newton,
+            path,
+            criteria,
+            allowed: self.demands.error,
+            stages: Stages::Solve,
+        };
         begin(&mut bench, &mut self.moment).map_err(|stall| Failure { time, step: 0.0, stall: Some(stall) })
     }
 
     fn check_path(&self, until: f64, path: &Path) -> Result<(), Error> {
-        let (time, length) = (self.moment.time, self.line.mesh().length);
+        let (time, length) = (self.moment.state.clock.now, self.line.mesh().length);
         let fairlead = self.moment.state.u.position(self.line.last());
         let (from, to) = (path.at(time), path.at(until));
         let jump = (from.position - fairlead).norm();
         let reach = (to.position - self.anchor).norm();
         let cause = if !(is_finite(&from) && is_finite(&to) && until.is_finite()) {
             Cause::BadMotion
+        } else if !self.line.is_pinned(self.line.last()) {
+            return Ok(());
         } else if jump > 1e-6 * length {
             Cause::Jump { distance: jump }
         } else if reach > 2.0 * length {
@@ -287,7 +380,7 @@ impl Simulation {
             zone: Zone::Fairlead,
             cause,
             fairlead_speed: to.velocity.norm(),
-            last_good_time: self.moment.time,
+            last_good_time: self.moment.state.clock.now,
         })))
     }
 
@@ -332,22 +425,37 @@ impl Simulation {
     /// The complete state. The factor of the tangent is not part of it: it is dropped here and in `restore`, so that what follows
     /// is the same to the bit after both.
     pub fn snapshot(&mut self) -> Snapshot {
+        let mut snapshot = Snapshot::new(self.line.mesh().nodes());
+        self.save(&mut snapshot);
+        snapshot
+    }
+
+    /// The complete state, as `snapshot`, into one that is there already.
+    pub fn save(&mut self, snapshot: &mut Snapshot) {
         self.newton.forget();
-        let (moment, error) = (self.moment.clone(), self.demands.error);
-        Snapshot { moment, work: self.work, fresh: self.fresh, error, last: self.last }
+        if !self.fits(snapshot) {
+            *snapshot = Snapshot::new(self.line.mesh().nodes());
+        }
+        snapshot.moment.copy_from(&self.moment);
+        snapshot.error = self.demands.error;
+        (snapshot.work, snapshot.fresh, snapshot.last) = (self.work, self.fresh, self.last);
     }
 
     /// Puts back a state of this line; false, and nothing changed, if it belongs to a line with another number of nodes.
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
-        let holds = &snapshot.moment.state.holds;
-        if snapshot.nodes() != self.line.mesh().nodes() || holds.nodes() != self.line.holding_nodes() {
+        if !self.fits(snapshot) {
             return false;
         }
         self.newton.forget();
-        self.moment.clone_from(&snapshot.moment);
+        self.moment.copy_from(&snapshot.moment);
         self.demands.error = snapshot.error;
         (self.work, self.fresh, self.last) = (snapshot.work, snapshot.fresh, snapshot.last);
         true
+    }
+
+    /// Whether a state is one of this line: it has as many nodes.
+    pub fn fits(&self, snapshot: &Snapshot) -> bool {
+        snapshot.nodes() == self.line.mesh().nodes() && snapshot.moment.state.holds.nodes() == self.line.holding_nodes()
     }
 
     /// Rates of the outputs in time, from the motion of the line now and the change of its acceleration over the last step.
@@ -355,44 +463,35 @@ impl Simulation {
         let (state, moment) = (&self.moment.state, &self.moment);
         let mut jerk = Field::new(state.a.nodes());
         if moment.last_step > 0.0 {
-            jerk.set_sum(&state.a, -1.0, &moment.earlier);
+            jerk.set_sum([(1.0, &state.a), (-1.0, &moment.earlier)]);
             jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
         }
-        let rate =
-            State { u: state.v.clone(), v: state.a.clone(), a: jerk, holds: tangent::hold_rate(self.line.as_ref(), state) };
-        let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0e-4);
+        let holds = tangent::hold_rate(self.line.as_ref(), state);
+        let rate = State { clock: state.clock, u: state.v.clone(), v: state.a.clone(), a: jerk, holds };
+        let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0, 1.0e-4);
         let velocity = state.v.position(self.line.last());
         (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));
         rates
     }
 
-    /// Derivatives of all outputs at a time, one for each variation of the path on the way there from a state: the steps are taken
-    /// once and then differentiated. The simulation stays as it is.
-    pub fn differentiate(
-        &mut self,
-        from: &Snapshot,
-        until: f64,
-        path: &Path,
-        directions: &[Path],
-    ) -> Result<Vec<Outputs>, Error> {
+    /// Takes the steps to a time and linearises them. The simulation stays as it is.
+    pub fn linearise(&mut self, until: f64, path: &Path) -> Result<Linearised, Error> {
         let now = self.snapshot();
         let tally = (self.controller.tally, self.newton.effort);
-        if !self.restore(from) {
-            return Ok(Vec::new());
-        }
-        let outcome = self.differentiate_from_here(until, path, directions);
-        let stuck = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, from.moment.time))));
+        let outcome = self.linearise_from_here(until, path);
+        let outcome = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, now.moment.state.clock.now))));
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
-        stuck
+        outcome
     }
 
-    fn differentiate_from_here(&mut self, until: f64, path: &Path, directions: &[Path]) -> Result<Vec<Outputs>, Failure> {
-        let (time, line, criteria) = (self.moment.time, self.line.as_ref(), self.demands.criteria);
+    fn linearise_from_here(&mut self, until: f64, path: &Path) -> Result<Linearised, Failure> {
+        let (time, line, criteria) = (self.moment.state.clock.now, self.line.as_ref(), self.demands.criteria);
+        let allowed = self.demands.error;
         let failed = |stall| Failure { time, step: 0.0, stall: Some(stall) };
-        let mut stages = Vec::new();
+        let mut solved = Vec::new();
         let mut legs = Vec::new();
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Record(&mut stages) };
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Record(&mut solved) };
         let fresh = std::mem::take(&mut self.fresh);
         if fresh {
             begin(&mut bench, &mut self.moment).map_err(failed)?;
@@ -403,35 +502,50 @@ impl Simulation {
             states.push(moment.state.clone());
             legs.push(*leg);
         })?;
-        let linear = stages.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
-        let mut derivatives = Vec::new();
-        for direction in directions {
-            let stages = Stages::Linear(linear.iter());
-            let mut bench = Bench { line, newton: &mut self.newton, path: direction, criteria, stages };
-            let mut change = controller::at_rest(line, time, 0.0);
-            if fresh {
-                begin(&mut bench, &mut change).map_err(failed)?;
-            }
-            change.last_step = history;
-            let mut work = 0.0;
-            let mut before = outputs::end_along(line, &states[0], &change.state);
-            self.controller
-                .repeat(&mut bench, &legs, &mut change, |change, number| {
-                    tangent::hold(line, &states[number + 1], &states[number].holds, &mut change.state);
-                    let now = outputs::end_along(line, &states[number + 1], &change.state);
-                    work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
-                    work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));
-                    before = now;
-                })
-                .map_err(failed)?;
-            derivatives.push(Outputs { work, ..outputs::along(line, &self.moment.state, &change.state, 1.0e-4) });
+        let stages = solved.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        Ok(Linearised { time, history, fresh, legs, states, stages })
+    }
+
+    /// Change of all outputs at the end of linearised steps per variation of their path: the steps are differentiated, not repeated.
+    pub fn derivative(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Error> {
+        let outcome = self.change(steps, variation);
+        outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, variation, steps.time))))
+    }
+
+    fn change(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Failure> {
+        let Linearised { time, history, fresh, legs, states, stages } = steps;
+        let (line, criteria) = (self.line.as_ref(), self.demands.criteria);
+        let failed = |stall| Failure { time: *time, step: 0.0, stall: Some(stall) };
+        let stages = Stages::Linear(stages.iter());
+        let allowed = self.demands.error;
+        let mut bench = Bench { line, newton: &mut self.newton, path: variation, criteria, allowed, stages };
+        let mut change = controller::at_rest(line, *time, 0.0);
+        if *fresh {
+            begin(&mut bench, &mut change).map_err(failed)?;
         }
-        Ok(derivatives)
+        change.last_step = *history;
+        let mut work = 0.0;
+        let mut before = outputs::end_along(line, &states[0], &change.state);
+        let along = |change: &mut Moment, number: usize| {
+            tangent::hold(line, &states[number + 1], &states[number].holds, &mut change.state);
+            let now = outputs::end_along(line, &states[number + 1], &change.state);
+            work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
+            work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));
+            before = now;
+        };
+        self.controller.repeat(&mut bench, legs, &mut change, along).map_err(failed)?;
+        Ok(Outputs { work, ..outputs::along(line, &states[legs.len()], &change.state, 0.0, 1.0e-4) })
     }
 
     /// Outputs now.
     pub fn outputs(&self) -> Outputs {
-        outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.time, self.work)
+        outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.state.clock.now, self.work, &mut Vec::new())
+    }
+
+    /// Outputs now, without allocating anything.
+    pub fn observe(&mut self) -> Outputs {
+        let time = self.moment.state.clock.now;
+        outputs::outputs(self.line.as_ref(), &self.moment.state, time, self.work, &mut self.forces)
     }
 
     /// Nodes now, from the fairlead.
@@ -486,11 +600,19 @@ impl Simulation {
 
 /// The fairlead takes up the velocity and acceleration of its path, the line the accelerations that fit.
 fn begin(bench: &mut Bench, moment: &mut Moment) -> Result<(), Stall> {
-    let now = bench.path.at(moment.time);
-    bench.prescribe(&mut moment.state, &now);
+    let now = moment.state.clock;
+    bench.prescribe(&mut moment.state, now);
     bench.accelerate(&mut moment.state)
 }
 
 fn is_finite(k: &Kinematics) -> bool {
     [k.position, k.velocity, k.acceleration].iter().all(|v| v.iter().all(|x| x.is_finite()))
+}
+
+/// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
+fn tension_length(line: &dyn Line, newton: &mut Newton, state: &State) -> f64 {
+    let length = line.mesh().length;
+    let tension = line.end_force(&motion(state)).norm();
+    let stiffness = newton.fairlead_stiffness(line, state).map_or(0.0, |k| k.norm());
+    if stiffness > 0.0 { (tension / stiffness).clamp(1e-5 * length, 0.02 * length) } else { 0.02 * length }
 }

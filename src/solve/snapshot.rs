@@ -1,6 +1,7 @@
 //! The complete state of a line in time as plain data, and as bytes.
 
 use crate::rod::state::{COMPONENTS, Field, State};
+use crate::sea::clock::Clock;
 use crate::solve::scheme::Moment;
 use crate::solve::simulation::LastStep;
 
@@ -14,7 +15,24 @@ pub struct Snapshot {
     pub(super) last: LastStep,
 }
 
+impl Moment {
+    /// Becomes another moment of the same line; allocates nothing, except what friction holds on to where there was none before.
+    pub fn copy_from(&mut self, other: &Moment) {
+        let Moment { state, earlier, last_step, step, guard } = other;
+        self.state.copy_from(state);
+        self.earlier.copy_from(earlier);
+        (self.last_step, self.step, self.guard) = (*last_step, *step, *guard);
+    }
+}
+
 impl Snapshot {
+    /// Room for the state of a line of so many nodes.
+    pub fn new(nodes: usize) -> Snapshot {
+        let (state, earlier) = (State::new(nodes), Field::new(nodes));
+        let moment = Moment { state, earlier, last_step: 0.0, step: 0.0, guard: 0 };
+        Snapshot { moment, work: 0.0, fresh: true, error: 0.0, last: LastStep::default() }
+    }
+
     /// Number of nodes of the line it belongs to.
     pub fn nodes(&self) -> usize {
         self.moment.state.u.nodes()
@@ -32,7 +50,7 @@ impl Snapshot {
             last.substeps as u64,
             last.newton_iterations as u64,
         ];
-        let scalars = [m.time, m.last_step, m.step, self.work, self.error, last.error_estimate];
+        let scalars = [m.state.clock.now, m.state.clock.start, m.last_step, m.step, self.work, self.error, last.error_estimate];
         let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds];
         let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).map(|x| x.to_bits());
         words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
@@ -44,7 +62,7 @@ impl Snapshot {
         let nodes = usize::try_from(words.next()?).ok()?;
         let holding = usize::try_from(words.next()?).ok()?;
         let numbers = nodes.checked_mul(4)?.checked_add(holding)?.checked_mul(COMPONENTS)?;
-        if bytes.len() != numbers.checked_add(12)?.checked_mul(8)? || nodes < 2 {
+        if bytes.len() != numbers.checked_add(13)?.checked_mul(8)? || nodes < 2 {
             return None;
         }
         let fresh = match words.next()? {
@@ -55,8 +73,8 @@ impl Snapshot {
         let guard = u32::try_from(words.next()?).ok()?;
         let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
-        let (time, last_step, step, work, error, error_estimate) =
-            (number()?, number()?, number()?, number()?, number()?, number()?);
+        let clock = Clock { now: number()?, start: number()? };
+        let (last_step, step, work, error, error_estimate) = (number()?, number()?, number()?, number()?, number()?);
         let mut field = |nodes| {
             let mut field = Field::new(nodes);
             for c in 0..COMPONENTS {
@@ -68,7 +86,7 @@ impl Snapshot {
         };
         let (u, v, a, earlier, holds) = (field(nodes)?, field(nodes)?, field(nodes)?, field(nodes)?, field(holding)?);
         Some(Snapshot {
-            moment: Moment { time, state: State { u, v, a, holds }, earlier, last_step, step, guard },
+            moment: Moment { state: State { clock, u, v, a, holds }, earlier, last_step, step, guard },
             work,
             fresh,
             error,

@@ -184,7 +184,7 @@ impl Walk {
 
     /// Moves to `from` + length·step and returns R·step there: the slope of the energy along the step, where there is an energy.
     fn move_by(&mut self, length: f64, line: &dyn Line, state: &mut State) -> Option<f64> {
-        state.u.set_sum(&self.from, length, &self.step);
+        state.u.set_sum([(1.0, &self.from), (length, &self.step)]);
         self.evaluate(line, state);
         let slope = self.residual.dot(&self.step);
         slope.is_finite().then_some(slope)
@@ -207,7 +207,7 @@ impl Walk {
         self.evaluate(line, state);
         let end_tension = line.end_force(&motion(state)).norm();
         let (residual, node) = largest_force(line, &self.residual);
-        let allowed = attempt.allowed * line.mesh().total_weight().max(end_tension).max(f64::MIN_POSITIVE);
+        let allowed = attempt.allowed * (line.mesh().total_weight() + line.burden()).max(end_tension).max(f64::MIN_POSITIVE);
         Balance { iterations: 0, residual, allowed, node }
     }
 }

@@ -4,7 +4,9 @@
 
 use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::algebra::shape::Shape;
+use moorline::rod::body::Body;
 use moorline::rod::element::Weights;
+use moorline::rod::hold::{self, Hold};
 use moorline::rod::line::{Line, Supports};
 use moorline::rod::mesh::{Mesh, Properties};
 use moorline::rod::physics::{self, Surroundings};
@@ -12,6 +14,7 @@ use moorline::rod::seabed::{Plane, Resistance};
 use moorline::rod::state::{COMPONENTS, Field, State};
 use moorline::rod::touching::Ground;
 use moorline::scene::types;
+use moorline::sea::clock::Clock;
 use moorline::solve::controller::{self, Controller, Demands};
 use moorline::solve::motion::Path;
 use moorline::solve::newton::{Criteria, Newton, motion};
@@ -68,6 +71,7 @@ pub fn material(ea: f64, mass: f64, weight: f64) -> Properties {
         drag_tangential: 0.0,
         added_normal: 0.0,
         added_tangential: 0.0,
+        seabed_stiffness: None,
     }
 }
 
@@ -91,7 +95,7 @@ pub fn uniform(properties: Properties, length: f64, elements: usize) -> Mesh {
 
 /// No water, no bed, no surface.
 pub fn nothing() -> Surroundings {
-    Surroundings { stretch: types::Stretch::Exact, current: None, ground: None, surface: None }
+    Surroundings { stretch: types::Stretch::Exact, current: None, waves: None, ground: None, surface: None }
 }
 
 /// A flat bed at height `level`, of the same resistance everywhere, touched `onset` above its level.
@@ -136,6 +140,30 @@ impl Holding {
         self.0.loads.push((node, force));
         self
     }
+
+    /// A body on its node.
+    pub fn body(mut self, body: Body) -> Holding {
+        self.0.bodies.push(body);
+        self
+    }
+
+    /// Springs, dampers and locks at a node.
+    pub fn by(mut self, hold: Hold) -> Holding {
+        self.0.holds.push(hold);
+        self
+    }
+}
+
+/// A point mass in air.
+pub fn point_mass(node: usize, mass: f64) -> Body {
+    Body { node, mass, added_mass: 0.0, weight: mass * GRAVITY, buoyancy: 0.0, drag: 0.0, diameter: None, bed: None }
+}
+
+/// A hold at an end that does nothing yet, with given axes, about a point.
+pub fn hold_at(node: usize, directions: [[f64; 3]; 2], reference: Vector3<f64>) -> Hold {
+    let (axes, zero) = (hold::axes(&directions), Vector3::zeros());
+    let reference = Some(reference);
+    Hold { first: node, node, axes, reference, motion: None, stiffness: zero, damping: zero, locked: [false; 3], force: zero }
 }
 
 /// A line on the test bench.
@@ -269,14 +297,14 @@ impl Rig {
         let line = self.line.as_ref();
         let criteria = Criteria { tolerance: 1.0e-13, length: line.mesh().length, iterations: 30 };
         let demands = Demands { error: 1.0, finest_step: 0.0, max_step: step, fixed_step: Some(step), criteria };
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, stages: Stages::Solve };
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed: 0.0, stages: Stages::Solve };
         let mut moment: Moment = controller::at_rest(line, 0.0, step);
         moment.state = self.state.clone();
-        bench.prescribe(&mut moment.state, &path.at(0.0));
+        bench.prescribe(&mut moment.state, Clock::at_rest(0.0));
         bench.accelerate(&mut moment.state).expect("regular mass matrix");
         let mut controller = Controller::new(scheme, line.mesh().nodes());
-        let outcome =
-            controller.advance(&mut bench, &demands, &mut moment, until, |moment, _| watch(moment.time, &moment.state, line));
+        let outcome = controller
+            .advance(&mut bench, &demands, &mut moment, until, |moment, _| watch(moment.state.clock.now, &moment.state, line));
         if let Err(failure) = outcome {
             panic!("no step: {failure:?}");
         }
@@ -314,6 +342,11 @@ pub struct Piece {
     pub length: f64,
     pub weight: f64,
     pub ea: f64,
+}
+
+/// A weight (negative: a lift) on a line, as a very short and heavy piece of it.
+pub fn weight(force: f64) -> Piece {
+    Piece { length: 1.0e-9, weight: 1.0e9 * force, ea: 1.0e15 }
 }
 
 /// Elastic catenary of several sections (Irvine 1981, section by section): `horizontal` H and `vertical` V at the anchor.

@@ -150,9 +150,9 @@ function drawSpot(c, view, point, project, kind) {
   const [x, y] = [view.x(u), view.y(v)];
   c.lineWidth = 2;
   c.strokeStyle = css(kind === "touchdown" ? "--bed-edge" : "--ink");
-  c.fillStyle = css(kind === "anchor" ? "--ink" : "--paper");
+  c.fillStyle = css(kind === "anchor" || kind === "body" ? "--ink" : "--paper");
   c.beginPath();
-  if (kind === "fairlead") c.arc(x, y, 4.5, 0, 2 * Math.PI);
+  if (kind === "fairlead" || kind === "body") c.arc(x, y, kind === "body" ? 3.5 : 4.5, 0, 2 * Math.PI);
   else if (kind === "anchor") c.rect(x - 4, y - 4, 8, 8);
   else { c.moveTo(x, y - 6); c.lineTo(x + 6, y); c.lineTo(x, y + 6); c.lineTo(x - 6, y); c.closePath(); }
   c.fill();
@@ -174,6 +174,10 @@ function drawLines(c, view, states, project) {
   drawn.forEach((line, i) => {
     drawLine(c, view, curve(line, states[i]), project);
     const last = line.s.length - 1;
+    // Two nodes at one place: something acts there.
+    for (let k = 0; k < last; k += 1) {
+      if (line.s[k] === line.s[k + 1]) drawSpot(c, view, states[i].p.slice(3 * k, 3 * k + 3), project, "body");
+    }
     if (states[i].touchdown !== null) drawSpot(c, view, pointAt(line, states[i], states[i].touchdown), project, "touchdown");
     drawSpot(c, view, states[i].p.slice(3 * last), project, "anchor");
     drawSpot(c, view, states[i].p.slice(0, 3), project, "fairlead");

@@ -1,0 +1,211 @@
+//! The tangent of the loads on the elements, and where it goes in the matrix of the line.
+//!
+//! ```text
+//! K_kl = Σ_g w_g L [ N_k N_l X_r + N_k N′_l X_r′ + N′_k N′_l n_r′ + N″_k N″_l EI c_u ]
+//! ```
+//!
+//! X_r, X_r′ weighted changes of the load with the motion of a point and with its slope, n_r′ of the axial force with slope and rate.
+
+use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::algebra::lanes::{Lanes, MOST_LANES, Real};
+use crate::algebra::shape::{GAUSS3, SHAPES3, Shape};
+use crate::algebra::tensor::Tensor;
+use crate::rod::bending::Bending;
+use crate::rod::element::{Batch, Ends, Motion, Property, Source, Table, Weights, with_curve};
+use crate::rod::morison::{self, PointMotion, Water};
+use crate::rod::stretch::{By, Direction, Stretch};
+use pulp::{Simd, WithSimd};
+use std::marker::PhantomData;
+
+/// Tangent of the loads at one point, already weighted: δX = load·δr + turning·δr′, δn = axial·δr′, δ(EI r″) = bending·δr″.
+#[derive(Debug, Clone, Copy)]
+pub struct PointTangent<F> {
+    /// Change of X with position, velocity and acceleration.
+    pub load: Tensor<F>,
+    /// Change of X with the slope.
+    pub turning: Tensor<F>,
+    /// Change of n with the slope and its rate.
+    pub axial: Tensor<F>,
+    /// EI c_u.
+    pub bending: Option<F>,
+}
+
+impl PointTangent<f64> {
+    /// A load that changes with the motion alone.
+    pub fn of_load(load: Tensor<f64>) -> Self {
+        let zero = Tensor::isotropic((), 0.0);
+        PointTangent { load, turning: zero, axial: zero, bending: None }
+    }
+}
+
+/// Tangent of elements, by the end values r_i, L p_i, r_j, L p_j: [l][k] couples end value k with end value l.
+#[derive(Debug, Clone, Copy)]
+pub struct ElementTangent<F>([[Tensor<F>; 4]; 4]);
+
+impl<F: Real> ElementTangent<F> {
+    /// Zero.
+    #[inline(always)]
+    pub fn zero(cpu: F::Cpu) -> Self {
+        ElementTangent([[Tensor::isotropic(cpu, F::splat(cpu, 0.0)); 4]; 4])
+    }
+
+    /// Adds `measure` times the tangent at a point of elements of length 1/`per_length`.
+    #[inline(always)]
+    pub fn add(&mut self, shape: &Shape, measure: F, per_length: F, point: &PointTangent<F>) {
+        let turning = point.turning.times(measure * per_length);
+        let load = point.load.times(measure);
+        let axial = point.axial.times(measure * per_length * per_length);
+        let bending = point.bending.map(|stiffness| stiffness * measure * per_length * per_length * per_length * per_length);
+        for l in 0..4 {
+            let loads = load.scale_add(shape.value[l], turning.scale(shape.slope[l]));
+            let axials = axial.scale(shape.slope[l]);
+            for k in 0..4 {
+                let block = &mut self.0[l][k];
+                *block = loads.scale_add(shape.value[k], axials.scale_add(shape.slope[k], *block));
+                if let Some(bending) = bending {
+                    let bending = bending * (shape.curvature[k] * shape.curvature[l]);
+                    block.0[0].x = block.0[0].x + bending;
+                    block.0[1].y = block.0[1].y + bending;
+                    block.0[2].z = block.0[2].z + bending;
+                }
+            }
+        }
+    }
+
+    /// Adds products[k][l] times one matrix to block (k, l).
+    pub fn add_products(&mut self, products: &[[f64; 4]; 4], matrix: &Tensor<F>) {
+        for l in 0..4 {
+            for k in 0..4 {
+                self.0[l][k] = matrix.scale_add(products[k][l], self.0[l][k]);
+            }
+        }
+    }
+
+    /// Adds the tangent of the elements from `first` on, of lengths `length`, to the matrix of a line of `count` elements.
+    #[inline(always)]
+    pub fn add_to(&self, matrix: &mut BlockTridiagonal<6>, first: usize, length: F, count: usize) {
+        let square = length * length;
+        let mut entries = [[0.0; MOST_LANES]; 9];
+        for l in 0..4 {
+            for k in 0..4 {
+                let scaled = match k % 2 + l % 2 {
+                    0 => self.0[l][k],
+                    1 => self.0[l][k].times(length),
+                    _ => self.0[l][k].times(square),
+                };
+                for (c, column) in scaled.0.into_iter().enumerate() {
+                    for (r, entry) in column.components().into_iter().enumerate() {
+                        entry.store(&mut entries[3 * c + r], 0);
+                    }
+                }
+                for lane in 0..F::LANES.min(count - first) {
+                    let e = first + lane;
+                    let target = match (k / 2, l / 2) {
+                        (0, 0) => &mut matrix.diagonal[e],
+                        (1, 1) => &mut matrix.diagonal[e + 1],
+                        (0, _) => &mut matrix.upper[e],
+                        _ => &mut matrix.lower[e],
+                    };
+                    for c in 0..3 {
+                        for r in 0..3 {
+                            target[(3 * (k % 2) + r, 3 * (l % 2) + c)] += entries[3 * c + r][lane];
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Adds the tangent of every element to the matrix. `geometric[3e + g]`, where given, is the tension of the geometric part.
+pub fn tangent<S: Stretch, W: Water, B: Bending>(
+    table: &Table,
+    water: &W,
+    at: &Motion,
+    weights: &Weights,
+    geometric: Option<&[f64]>,
+    matrix: &mut BlockTridiagonal<6>,
+) {
+    let source = Source::new(table, water, None, at);
+    table.processor.dispatch(Assembly::<S, W, B> { table, source, weights, geometric, matrix, laws: PhantomData });
+}
+
+struct Assembly<'a, S, W, B> {
+    table: &'a Table,
+    source: Source<'a, W>,
+    weights: &'a Weights,
+    geometric: Option<&'a [f64]>,
+    matrix: &'a mut BlockTridiagonal<6>,
+    laws: PhantomData<(S, B)>,
+}
+
+impl<S: Stretch, W: Water, B: Bending> WithSimd for Assembly<'_, S, W, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        let Assembly { table, source, weights, geometric, matrix, .. } = self;
+        let count = table.len();
+        for e in (0..count).step_by(V::F64_LANES) {
+            let mut tensions = [[0.0; MOST_LANES]; 3];
+            if let Some(geometric) = geometric {
+                for lane in 0..V::F64_LANES.min(count - e) {
+                    (0..3).for_each(|g| tensions[g][lane] = geometric[3 * (e + lane) + g]);
+                }
+            }
+            let geometric = geometric.map(|_| &tensions);
+            let sum = batch_tangent::<Lanes<V>, S, W, B>(cpu, &source, e, weights, geometric);
+            let length = Lanes::load(cpu, source.table[Property::Length as usize], e);
+            sum.add_to(matrix, e, length, count);
+        }
+    }
+}
+
+/// Tangent of the elements from `e` on.
+#[inline(always)]
+fn batch_tangent<F: Real, S: Stretch, W: Water, B: Bending>(
+    cpu: F::Cpu,
+    source: &Source<W>,
+    e: usize,
+    weights: &Weights,
+    geometric: Option<&[[f64; MOST_LANES]; 3]>,
+) -> ElementTangent<F> {
+    let table = Batch::<F> { cpu, rows: &source.table, e };
+    let (length, per_length, measure) =
+        (table.get(Property::Length), table.get(Property::PerLength), table.get(Property::Measure));
+    let (axial, coefficients) = (table.axial(), table.coefficients());
+    let mass = table.get(Property::Mass) * weights.a;
+    let bending = B::PRESENT.then(|| table.get(Property::Ei) * weights.u);
+    let u = Ends::load(cpu, &source.u, e, length);
+    let v = Ends::load(cpu, &source.v, e, length);
+    let a = Ends::load(cpu, &source.a, e, length);
+    let wet = u.wet(table.get(Property::Waterline));
+    let by = By { slope: weights.u, rate: weights.v };
+    let mut sum = ElementTangent::zero(cpu);
+    for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {
+        let direction = Direction::of(u.combine(&shape.slope) * per_length);
+        let rate = v.combine(&shape.slope) * per_length;
+        let geometric = geometric.map(|tensions| F::load(cpu, &tensions[g], 0));
+        let curved = with_curve::<F, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
+        let mut point = PointTangent {
+            load: Tensor::isotropic(cpu, mass),
+            turning: Tensor::isotropic(cpu, F::splat(cpu, 0.0)),
+            axial: S::tangent(cpu, &curved, &direction, rate, geometric, by),
+            bending,
+        };
+        if W::PRESENT {
+            let motion = PointMotion {
+                clock: source.clock,
+                direction,
+                place: u.combine(&shape.value),
+                velocity: v.combine(&shape.value),
+                acceleration: a.combine(&shape.value),
+            };
+            let water = morison::tangent(cpu, source.water, &coefficients, &motion, weights);
+            point.load = water.by_motion.mul_add(-wet, point.load);
+            point.turning = water.by_slope.times(-wet);
+        }
+        sum.add(shape, measure * gauss.weight, per_length, &point);
+    }
+    sum
+}
