@@ -30,6 +30,20 @@ pub enum Error {
         /// What is wrong there.
         problem: Box<Problem>,
     },
+    /// A CABLE file cannot be read.
+    #[error("{file}, line {line}, column {column}, {item}: {problem}")]
+    Deck {
+        /// The file.
+        file: String,
+        /// Line of the text, from 1.
+        line: usize,
+        /// Column of the text in characters, from 1.
+        column: usize,
+        /// What should stand there, by the name that the report gives it.
+        item: String,
+        /// What is wrong there.
+        problem: Box<DeckProblem>,
+    },
     /// A `--set` cannot be applied, or makes the scene unreadable.
     #[error("{file}, --set {setting}{}: {problem}", at_place(.place))]
     Set {
@@ -57,16 +71,6 @@ pub enum Error {
     /// A line is too short for the distance of its ends.
     #[error(transparent)]
     Reach(Box<Reach>),
-    /// The scene asks for something that this version does not support.
-    #[error("{file}, {place}: this version of moorline does not support {feature}")]
-    Unsupported {
-        /// The file.
-        file: String,
-        /// Place in the scene.
-        place: String,
-        /// What was asked for, and what to do without it.
-        feature: String,
-    },
     /// No static equilibrium was found.
     #[error(transparent)]
     Statics(Box<Unbalanced>),
@@ -87,10 +91,10 @@ impl Error {
         match self {
             Error::File { .. }
             | Error::Json { .. }
+            | Error::Deck { .. }
             | Error::Set { .. }
             | Error::Value { .. }
-            | Error::Reach(_)
-            | Error::Unsupported { .. } => 2,
+            | Error::Reach(_) => 2,
             Error::Statics(_) | Error::Step(_) => 3,
             Error::Interrupted { .. } => 130,
         }
@@ -182,6 +186,60 @@ pub enum Problem {
         place: String,
         /// Its value.
         found: String,
+    },
+}
+
+/// What is wrong at one place of a CABLE file.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum DeckProblem {
+    /// The text ends before it has said everything.
+    #[error("the file ends here, before this; is it cut off?")]
+    Ends,
+    /// The text holds no count of nodes: it is something else.
+    #[error(
+        "this is neither a scene, which is a JSON object and begins with {{, nor a CABLE file, which has this count in its 7th line"
+    )]
+    Neither,
+    /// Something else than a number.
+    #[error("found {found}, expected {expected}")]
+    Unreadable {
+        /// What stands there.
+        found: String,
+        /// What should stand there.
+        expected: String,
+    },
+    /// Not as many numbers as the line must have.
+    #[error("the line has {found} of the {expected} numbers that it needs")]
+    TooFew {
+        /// How many stand there.
+        found: usize,
+        /// How many should.
+        expected: usize,
+    },
+    /// NaN, Infinity, or a number beyond 1e15.
+    #[error("{text} is not allowed: every number must be finite and not larger than 1e15")]
+    NotFinite {
+        /// The number as written.
+        text: String,
+    },
+    /// Asterisks: the program that wrote the file had a number longer than its columns.
+    #[error(
+        "these asterisks stand for a number that was too long for its columns when the file was written; put the number there"
+    )]
+    Stars,
+    /// A number that means nothing there.
+    #[error("{value} is not allowed: {allowed}")]
+    NotAllowed {
+        /// The value.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A scene that no CABLE file can say.
+    #[error("a CABLE file cannot hold this: {reason}")]
+    CannotHold {
+        /// Why.
+        reason: String,
     },
 }
 
@@ -334,6 +392,26 @@ pub enum Cause {
         distance: f64,
         /// Unstretched length [m].
         length: f64,
+    },
+    /// A step of `cable-1994` that its damping makes unstable.
+    #[error(
+        "a step of {step:.1e} s is too short for the scheme cable-1994: its damping amplifies errors in steps of {shortest:.1e} s and less, \
+         twice the largest `damping`; use longer steps (solver.fixed_step, run.output_step), less damping or another scheme"
+    )]
+    StepTooShort {
+        /// The step [s].
+        step: f64,
+        /// Twice the largest time constant [s].
+        shortest: f64,
+    },
+    /// `cable-1994` has left every bound.
+    #[error(
+        "the scheme cable-1994, which solves each step once and controls no error, has diverged with steps of {step} s; shorten \
+         solver.fixed_step, or use adams-moulton"
+    )]
+    Diverged {
+        /// The step [s].
+        step: f64,
     },
     /// The motion holds a number that is not finite.
     #[error("the motion of the fairlead is not finite")]

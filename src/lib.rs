@@ -1,7 +1,7 @@
 //! moorline: the mooring line that a ship simulator plugs in.
 //!
 //! The map of the house. Each layer knows only what stands above it in this list:
-//! `error`, `algebra`, `scene`, `sea`, `rod`, `solve`, `report` and `fmi`, `cli`. `tests/house.rs` holds it to that.
+//! `error`, `algebra`, `scene`, `sea`, `rod`, `cable1994`, `solve`, `report` and `fmi`, `cli`. `tests/house.rs` holds it to that.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
@@ -23,6 +23,7 @@ pub mod error;
 
 /// Numbers only: shape functions, quadrature, block-tridiagonal systems. No mooring.
 pub mod algebra {
+    pub mod banded;
     pub mod block_tridiagonal;
     pub mod lanes;
     pub mod polynomial;
@@ -33,9 +34,11 @@ pub mod algebra {
 
 /// What the user said: plain data, read and checked. No nodes, no steps.
 pub mod scene {
+    pub mod cable;
     pub mod check;
     pub mod motion_file;
     pub mod read;
+    pub mod state;
     pub mod types;
 }
 
@@ -70,13 +73,27 @@ pub mod sea {
     pub mod waves;
 }
 
+/// The method of the 1994 report, in a room of its own.
+pub mod cable1994 {
+    pub mod element;
+    pub mod line;
+    pub mod mat;
+    pub mod setup;
+    pub mod shapes;
+    pub mod statics;
+    pub mod step;
+}
+
 /// Statics and time.
 pub mod solve {
     pub mod adams_moulton;
     pub mod controller;
+    pub mod departure;
     pub mod esdirk;
     pub mod generalized_alpha;
+    pub mod line_state;
     pub mod meshing;
+    pub mod mixed;
     pub mod motion;
     pub mod newton;
     pub mod outputs;
@@ -104,6 +121,7 @@ pub mod fmi {
 
 /// What a run leaves behind: tables and a page to look at.
 pub mod report {
+    pub mod cable_files;
     pub mod page;
     pub mod page_data;
     pub mod record;

@@ -202,3 +202,31 @@ fn every_example_has_its_answer() {
         assert!(tests.contains(&format!("load(\"{name}\")")), "{name} has no test");
     }
 }
+
+/// Source: elastic catenary in closed form, section by section, with touchdown on a rigid bed (Irvine 1981): from the end force found it
+/// reaches the scene's depth and anchor, but for a bed that is soft over 0.2 m (measured 1e-3 in the depth). Tensions are the mean and the
+/// maximum of Table 3.3 of the 1994 report, 98 and 102 kips; it gives neither depth nor anchor nor motion, which were chosen for them.
+#[test]
+fn calm_line_has_the_mean_tension_of_the_report() {
+    let pieces = [
+        (30.48, 220.25 * GRAVITY - 278.74, 1.77929e9),
+        (335.28, 31.22 * GRAVITY - 39.4, 8.8964e8),
+        (1005.84, 220.25 * GRAVITY - 278.74, 1.77929e9),
+    ];
+    let scene = load("calm-line.json");
+    let outputs = settled(&scene, 0).outputs();
+    assert_close("tension", outputs.tension, 98.0 * 4448.2216, 1e-3);
+    let (h, mut v, mut x, mut z) = (outputs.force.x, -outputs.force.z, 0.0, 0.0);
+    for (length, weight, ea) in pieces {
+        let hanging = f64::min(length, v / weight);
+        let below = v - weight * hanging;
+        x += h / weight * ((v / h).asinh() - (below / h).asinh()) + h * hanging / ea + (length - hanging) * (1.0 + h / ea);
+        z += (h.hypot(v) - h.hypot(below)) / weight + (v + below) / 2.0 * hanging / ea;
+        v = below;
+    }
+    assert_close("depth", z, 85.0, 5e-3);
+    assert_close("anchor", x, 1361.13, 4e-5);
+    let rows = history(&scene);
+    let largest = rows.iter().map(|row| row.tension).fold(0.0, f64::max);
+    assert_close("largest tension", largest, 102.0 * 4448.2216, 3e-3);
+}

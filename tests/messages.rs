@@ -305,7 +305,11 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     (r#""mass": 135.35,"#, r#""mass": 135.35, "outer_area": -1,"#, &["line_types.chain.outer_area", "-1 is not allowed", "m²"]),
     (r#""mass": 135.35,"#, r#""mass": 135.35, "seabed_stiffness": 0,"#, &["line_types.chain.seabed_stiffness", "Pa"]),
     (r#""duration": 120.0"#, r#""duration": 120.0, "start": 1e16"#, &["run.start", "1e16"]),
-    (r#""run": {"#, r#""solver": {"scheme": "cable-1994"}, "run": {"#, &["solver.scheme", "does not support", "adams-moulton"]),
+    (
+        r#""run": {"#,
+        r#""solver": {"scheme": "cable-1994", "stretch": "exact"}, "run": {"#,
+        &["solver.stretch", "\"exact\"", "cable-1994 is built on the report's law"],
+    ),
     (r#""run": {"#, r#""solver": {"hydrostatic_strain": true}, "run": {"#, &["solver.hydrostatic_strain", "does not support"]),
 ];
 
@@ -375,7 +379,8 @@ fn texts_that_are_no_scene_say_what_they_are() {
         ("{} {}", &["trailing characters"]),
         ("{}", &["is missing"]),
         ("# a comment\n{}", &["line 1", "no comments"]),
-        ("  1 0 0 0\n 40 2\n", &["harbour.json, line 1", "does not support CABLE input files"]),
+        ("  1 0 0 0\n 40 2\n", &["harbour.json, line 2, column 6, NELTYP", "the file ends here"]),
+        ("lines:\n  - name: bow\n", &["harbour.json, line 2", "neither a scene, which is a JSON object", "nor a CABLE file"]),
         (&deep, &["title[0][0][0][0][0][0][0][0][0][0][0]…: ", "too deep"]),
     ];
     for (text, words) in cases {
@@ -528,7 +533,7 @@ fn the_smallest_scene_takes_every_default() {
     assert!(lines[0].constraints.is_empty());
     assert_eq!((motion, run.duration, run.output_step), (Motion::Fixed, 120.0, 0.1));
     assert_eq!((solver.scheme, solver.tolerance, solver.max_step, solver.fixed_step), (Scheme::AdamsMoulton, 1e-3, 0.5, None));
-    assert_eq!((solver.stretch, solver.hydrostatic_strain), (Stretch::Exact, false));
+    assert_eq!((solver.stretch, solver.law(), solver.hydrostatic_strain), (None, Stretch::Exact, false));
 }
 
 /// Source: Michell (1893): in deep water a wave breaks at 0.142 of its length, 22.2 m for 10 s.
@@ -552,7 +557,7 @@ fn a_scene_with_every_supported_key_is_read_and_survives_writing() {
     assert_eq!((scene.environment.current[1].z, scene.line_types["rope"].buoyancy), (-120.0, Some(170.171)));
     assert_eq!((scene.lines[0].sections[0].elements, scene.lines[1].name.as_str()), (Some(10), "line2"));
     assert_eq!(
-        (scene.solver.scheme, scene.solver.stretch, scene.solver.fixed_step),
+        (scene.solver.scheme, scene.solver.law(), scene.solver.fixed_step),
         (Scheme::Esdirk3, Stretch::Report, Some(0.05))
     );
     let written = serde_json::to_string(scene).expect("a scene can be written");

@@ -378,7 +378,8 @@ fn derivatives_of_steps_are_the_differences_of_runs() {
     let variation =
         Path::Polynomial { start: 0.0, coefficients: vec![Vector3::zeros(), Vector3::zeros(), Vector3::new(-0.2, 0.7, 0.4)] };
     let from = line.snapshot();
-    let found = line.differentiate(&from, 0.6, &path(0.0), &[variation]).unwrap_or_else(|error| panic!("{error}"))[0];
+    let steps = line.linearise(0.6, &path(0.0)).unwrap_or_else(|error| panic!("{error}"));
+    let found = line.derivative(&steps, &variation).unwrap_or_else(|error| panic!("{error}"));
     let mut run = |share: f64| {
         assert!(line.restore(&from));
         line.advance(0.6, &path(share)).unwrap_or_else(|error| panic!("{error}"));

@@ -143,7 +143,8 @@ fn play(seed: u64, tally: &mut Tally) {
     }
     tally.settled += 1;
     let (run, motion) = (scene.run.clone(), None);
-    let loaded = Loaded { scene, file: "random".into(), directory: ".".into(), motion, warnings: Vec::new() };
+    let loaded =
+        Loaded { scene, file: "random".into(), directory: ".".into(), motion, deck: None, state: None, warnings: Vec::new() };
     let path = Path::of_scene(&loaded, 0);
     let rows = (run.duration / run.output_step).ceil() as usize;
     for row in 1..=rows {

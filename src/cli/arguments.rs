@@ -35,14 +35,14 @@ enum Command {
     Schema,
     /// Write an FMU: a co-simulation unit for FMI 2.0 masters
     Pack(PackArguments),
-    /// JSON scene to CABLE file and back (comes with a later version)
+    /// JSON scene to CABLE file and back; says what the other format cannot hold
     Convert(ConvertArguments),
 }
 
 /// `moorline run`.
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// Scene file; without one, the built-in case of Lindahl & Sjöberg
+    /// Scene file or CABLE file; without one, the built-in case of Lindahl & Sjöberg
     pub scene: Option<PathBuf>,
     /// Where to and how.
     #[command(flatten)]
@@ -77,7 +77,7 @@ pub struct StaticsArguments {
 /// A scene and what to change in it.
 #[derive(Debug, Args)]
 pub struct SceneArguments {
-    /// Scene file
+    /// Scene file, or a CABLE file
     pub scene: PathBuf,
     /// Value to put into the scene before it is checked, such as environment.depth=100; repeatable
     #[arg(long = "set", value_name = "PLACE=VALUE")]
@@ -94,7 +94,7 @@ impl SceneArguments {
 /// `moorline pack`.
 #[derive(Debug, Args)]
 pub struct PackArguments {
-    /// Scene file; without one, the built-in case of Lindahl & Sjöberg
+    /// Scene file or CABLE file; without one, the built-in case of Lindahl & Sjöberg
     pub scene: Option<PathBuf>,
     /// The FMU to write
     #[arg(short, long, value_name = "FILE.fmu")]
@@ -118,8 +118,6 @@ pub struct ConvertArguments {
 pub enum Stop {
     /// The calculation or a file failed.
     Failed(Error),
-    /// The command line asks for what this version does not offer.
-    Usage(String),
 }
 
 impl From<Error> for Stop {
@@ -148,10 +146,6 @@ pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
         Err(Stop::Failed(error)) => {
             console::error(&error.to_string());
             ExitCode::from(error.exit_code())
-        }
-        Err(Stop::Usage(message)) => {
-            console::error(&message);
-            ExitCode::from(2)
         }
     }
 }

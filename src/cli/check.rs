@@ -69,7 +69,7 @@ fn cost(scene: &Scene, elements: usize) -> String {
     let schedule = Schedule::new(&scene.run);
     let steps_per_row = |longest: f64| (scene.run.output_step / longest * (1.0 - 1.0e-9)).ceil().max(1.0);
     let rows = (schedule.rows() - 1) as f64;
-    let usual = match scene.solver.fixed_step {
+    let usual = match scene.solver.uncontrolled_step() {
         Some(step) => steps_per_row(step),
         None => {
             let asked = STEPS_PER_SECOND * (DEFAULT_TOLERANCE / scene.solver.tolerance).cbrt() * scene.run.output_step;

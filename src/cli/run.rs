@@ -7,17 +7,23 @@ use crate::cli::pack::BUILT_IN;
 use crate::cli::progress::Progress;
 use crate::error::Error;
 use crate::fmi::pack::{self, Libraries};
+use crate::report::cable_files::CableFiles;
 use crate::report::page;
 use crate::report::record::Record;
 use crate::report::schedule::Schedule;
 use crate::report::tables::{self, Nodes, TimeSeries};
 use crate::report::units::{count, sim_time, wall_time};
+use crate::scene::cable::{Deck, Job};
 use crate::scene::read::{self, Loaded};
+use crate::scene::state::LineState;
+use crate::scene::types::Scheme;
+use crate::solve::departure::{self, Departure};
 use crate::solve::motion;
 use crate::solve::simulation::{NodeOutput, Outputs, Simulation};
 use std::fmt::Write;
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Runs a scene and leaves the results in the output directory, also of a run that fails or is stopped half way.
@@ -35,7 +41,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     record.statics_seconds = started.elapsed().as_secs_f64();
 
     let files = Files::of(&arguments.options.output)?;
-    let mut tables = Tables::create(&files, &record)?;
+    let mut tables = Tables::create(&files, &record, &loaded, &arguments.options.output)?;
     let outcome = drive(&mut lines, &schedule, &mut record, &mut tables, quiet);
     lines.count(&mut record);
     record.ended_by = outcome.as_ref().err().cloned();
@@ -75,6 +81,7 @@ fn drive(
     lines.settle(record)?;
     let mut nodes = lines.nodes();
     tables.row(record, schedule.time(0), &lines.outputs(), &nodes)?;
+    tables.cable_row(lines)?;
     tables.snapshot(record, schedule.time(0), &nodes)?;
 
     let progress = Progress::new(schedule.rows(), record.scene.run.end(), quiet);
@@ -88,6 +95,7 @@ fn drive(
         let outputs = lines.outputs();
         nodes = lines.nodes();
         tables.row(record, time, &outputs, &nodes)?;
+        tables.cable_row(lines)?;
         if row % schedule.rows_per_snapshot() == 0 {
             tables.snapshot(record, time, &nodes)?;
         }
@@ -97,31 +105,51 @@ fn drive(
     if let Some(end) = record.end_time().filter(|end| record.snapshot_times.last() < Some(end)) {
         tables.snapshot(record, end, &nodes)?;
     }
+    tables.cable_output(record, lines)?;
     outcome
 }
 
 /// All lines of a scene with their fairlead paths. They do not know of each other; they meet at the output times.
 struct MovingLines {
     lines: Vec<(Simulation, motion::Path)>,
+    /// The state that a CABLE file gives the first line.
+    given: Option<Arc<LineState>>,
 }
 
 impl MovingLines {
     fn new(loaded: &Loaded) -> Result<MovingLines, Error> {
         let line = |index| Ok((Simulation::new(&loaded.scene, index)?, motion::Path::of_scene(loaded, index)));
-        Ok(MovingLines { lines: (0..loaded.scene.lines.len()).map(line).collect::<Result<_, Error>>()? })
+        let lines = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, Error>>()?;
+        let dynamics = loaded.deck.as_ref().is_some_and(|deck| deck.job == Job::Dynamics);
+        Ok(MovingLines { lines, given: loaded.state.clone().filter(|_| dynamics) })
     }
 
-    /// Finds the equilibrium of all lines. Of a line that has none, the best state found is recorded.
+    /// Finds the equilibrium of all lines, or begins where a CABLE file says. Of a line that has no equilibrium, the best state found is
+    /// recorded.
     fn settle(&mut self, record: &mut Record) -> Result<(), Error> {
         let begin = record.scene.run.start;
+        let mut given = self.given.take();
         for ((simulation, path), line) in self.lines.iter_mut().zip(&mut record.lines) {
             let started = Instant::now();
-            let report = simulation.settle(path.at(begin).position, begin);
+            let fairlead = path.at(begin).position;
+            let departure = match given.take() {
+                Some(given) => departure::depart(simulation, &given, fairlead, record.scene.solver.scheme == Scheme::Cable1994),
+                None => simulation.settle(fairlead, begin).map(Departure::Equilibrium),
+            };
             record.statics_seconds += started.elapsed().as_secs_f64();
             line.equilibrium = simulation.nodes();
-            line.statics = Some(report?);
+            let departure = departure?;
+            if let Departure::Equilibrium(report) | Departure::Foreign(report) = departure {
+                line.statics = Some(report);
+            }
+            record.scene_warnings.extend(remark(&departure).map(|remark| format!("{}: {remark}", record.file)));
         }
         Ok(())
+    }
+
+    /// The state of the first line.
+    fn line_state(&self) -> Option<LineState> {
+        self.lines.first().map(|(simulation, _)| simulation.line_state())
     }
 
     /// Advances all lines to an output time, unless the user stops the run before.
@@ -152,6 +180,20 @@ impl MovingLines {
             line.elements = simulation.elements();
             line.counters = simulation.counters();
         }
+    }
+}
+
+/// What a user should know of the nodes from which a run began.
+fn remark(departure: &Departure) -> Option<String> {
+    match departure {
+        Departure::Equilibrium(_) | Departure::Moving => None,
+        Departure::Unbalanced { node, distance } => Some(format!(
+            "the nodes are not in equilibrium: node {node} would rest {distance:.2} m away; the run began from them as they stand"
+        )),
+        Departure::Unsettled => {
+            Some("the nodes are not in equilibrium, and none was found; the run began from them as they stand".to_string())
+        }
+        Departure::Foreign(_) => Some("the line is longer than the nodes say; the run began in equilibrium".to_string()),
     }
 }
 
@@ -188,17 +230,32 @@ impl Files {
 struct Tables {
     time_series: TimeSeries<File>,
     nodes: Nodes<File>,
+    /// The files of 1994, where a CABLE file is run.
+    cable: Option<(CableFiles, Arc<Deck>)>,
 }
 
 impl Tables {
-    fn create(files: &Files, record: &Record) -> Result<Tables, Error> {
+    fn create(files: &Files, record: &Record, loaded: &Loaded, directory: &Path) -> Result<Tables, Error> {
         let names: Vec<&str> = record.lines.iter().map(|line| line.name.as_str()).collect();
         let scene = &record.scene;
         let walls = scene.solver.hydrostatic_strain || scene.line_types.values().any(|line_type| line_type.inner_fluid.is_some());
         Ok(Tables {
             time_series: TimeSeries::new(tables::create(&files.time_series)?, &files.time_series, &names)?,
             nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes, walls)?,
+            cable: loaded.deck.clone().map(|deck| Ok((CableFiles::create(directory, &deck)?, deck))).transpose()?,
         })
+    }
+
+    /// A row of the files of 1994.
+    fn cable_row(&mut self, lines: &MovingLines) -> Result<(), Error> {
+        let Some((files, _)) = &mut self.cable else { return Ok(()) };
+        lines.line_state().map_or(Ok(()), |state| files.row(&state))
+    }
+
+    /// The output of 1994.
+    fn cable_output(&self, record: &Record, lines: &MovingLines) -> Result<(), Error> {
+        let Some((files, deck)) = &self.cable else { return Ok(()) };
+        lines.line_state().map_or(Ok(()), |state| files.finish(&record.scene, deck, &state))
     }
 
     fn row(&mut self, record: &mut Record, time: f64, outputs: &[Outputs], nodes: &[Vec<NodeOutput>]) -> Result<(), Error> {

@@ -173,6 +173,7 @@ impl Record {
             steps: sum.steps + line.counters.steps,
             rejected_steps: sum.rejected_steps + line.counters.rejected_steps,
             unresolved_steps: sum.unresolved_steps + line.counters.unresolved_steps,
+            pushing_steps: sum.pushing_steps + line.counters.pushing_steps,
             newton_iterations: sum.newton_iterations + line.counters.newton_iterations,
             factorisations: sum.factorisations + line.counters.factorisations,
             element_iterations: sum.element_iterations + line.counters.element_iterations,
@@ -192,11 +193,12 @@ impl Record {
         ForceUnit::for_largest(rows.chain(statics).fold(0.0, f64::max))
     }
 
-    /// All warnings: those of the scene, then breaking loads exceeded, then steps whose error was above the tolerance.
+    /// All warnings: those of the scene, then breaking loads exceeded, then steps whose error was above the tolerance or whose line pushed.
     pub fn warnings(&self) -> Vec<String> {
         let overloads = self.lines.iter().flat_map(|line| line.parts.iter().filter_map(|part| part.warning(&line.name)));
         let unresolved = self.lines.iter().filter_map(LineRecord::unresolved);
-        self.scene_warnings.iter().cloned().chain(overloads).chain(unresolved).collect()
+        let pushing = self.lines.iter().filter_map(LineRecord::pushing);
+        self.scene_warnings.iter().cloned().chain(overloads).chain(unresolved).chain(pushing).collect()
     }
 }
 
@@ -223,6 +225,18 @@ impl LineRecord {
             format!(
                 "line \"{}\": {unresolved_steps} of {steps} steps did not meet the tolerance: the line snaps or rings faster than the \
                  finest step resolves. Read peaks as statistics; more axial damping or a smaller solver.max_step resolves more.",
+                self.name
+            )
+        })
+    }
+
+    /// Says so where the scheme `cable-1994` left the ground of its equations.
+    fn pushing(&self) -> Option<String> {
+        let Counters { steps, pushing_steps, .. } = self.counters;
+        (pushing_steps > 0).then(|| {
+            format!(
+                "line \"{}\": in {pushing_steps} of {steps} steps a part of the line pushed: the scheme cable-1994 knows no slack line, \
+                 and its result means nothing there. Use adams-moulton.",
                 self.name
             )
         })

@@ -23,7 +23,8 @@ pub fn write(path: &Path, text: &str) -> Result<(), Error> {
     std::fs::write(path, text).map_err(|error| unwritable(path, &error))
 }
 
-fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Error {
+/// The error of a file that cannot be written.
+pub fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Error {
     Error::File { path: path.display().to_string(), reason: format!("cannot be written: {error}") }
 }
 

@@ -180,6 +180,12 @@ impl Mesh {
         self.elasticities.get(self.elements[element].section).unwrap_or(NONE)
     }
 
+    /// The same elements with one slope at every node.
+    pub fn without_joints(mut self) -> Mesh {
+        self.elements.retain(|element| !element.is_joint());
+        self
+    }
+
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.elements.len() + 1

@@ -50,7 +50,7 @@ impl Surroundings {
     pub fn of(scene: &Scene, mesh: &Mesh) -> Surroundings {
         let current = Current::new(&scene.environment.current);
         Surroundings {
-            stretch: scene.solver.stretch,
+            stretch: scene.solver.law(),
             current: (!current.is_still()).then_some(current),
             waves: Waves::of(&scene.environment),
             ground: Some(ground(&scene.environment, mesh)),

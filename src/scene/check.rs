@@ -4,9 +4,11 @@
 //! Numbers beyond 1e15 in size, and positive ones below 1e-12, are taken for slips: products of them would leave the range of f64.
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
+mod cable_1994;
+
 use crate::error::{Error, Limit, Reach, among};
 use crate::scene::motion_file::Table;
-use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Scheme, Triple, Waves};
+use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Triple, Waves};
 
 /// Largest size of any number.
 const LARGEST: f64 = 1.0e15;
@@ -25,7 +27,7 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 29] = [
+const RULES: [Rule; 30] = [
     gravity,
     water_density,
     depth,
@@ -55,6 +57,7 @@ const RULES: [Rule; 29] = [
     run,
     solver,
     reach,
+    cable_1994::cable_1994,
 ];
 
 /// Checks a scene; `file` names it in the message. Returns warnings, or the first thing that is wrong.
@@ -62,19 +65,7 @@ pub fn check(scene: &Scene, file: &str) -> Result<Vec<String>, Error> {
     for rule in RULES {
         rule(scene, file)?;
     }
-    supported(scene, file)?;
     Ok([unused_line_types(scene), breaking_waves(scene), without_effect(scene)].concat())
-}
-
-/// Features that the types know and the solver does not yet: each one a block to delete.
-fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
-    let unsupported =
-        |place: String, feature: &str| Err(Error::Unsupported { file: file.into(), place, feature: feature.into() });
-    if scene.solver.scheme == Scheme::Cable1994 {
-        let others = "the scheme \"cable-1994\"; use \"adams-moulton\", \"esdirk3\" or \"generalized-alpha\"";
-        return unsupported("solver.scheme".into(), others);
-    }
-    Ok(())
 }
 
 fn gravity(scene: &Scene, file: &str) -> Result<(), Error> {

@@ -1,10 +1,13 @@
-//! From text to a checked scene: JSON, `--set`, types, names, plausibility, motion file. Every way to fail names its place.
+//! From text to a checked scene: JSON or a CABLE file, `--set`, types, names, plausibility, motion file. Every way to fail names its
+//! place.
 
 mod place;
 mod setting;
 
 use crate::error::{Error, Problem};
-use crate::scene::types::{Motion, Scene};
+use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
+use crate::scene::state::LineState;
+use crate::scene::types::{Motion, Scene, Scheme};
 use crate::scene::{check, motion_file};
 use place::{Place, Step, shortened};
 use serde_json::Value;
@@ -31,6 +34,10 @@ pub struct Loaded {
     pub directory: PathBuf,
     /// The motion of kind `file`, else none.
     pub motion: Option<Arc<motion_file::Table>>,
+    /// The CABLE file that the scene was read from, else none.
+    pub deck: Option<Arc<Deck>>,
+    /// The state of the only line that the file gives, else none.
+    pub state: Option<Arc<LineState>>,
     /// What is allowed but may not be meant.
     pub warnings: Vec<String>,
 }
@@ -51,28 +58,84 @@ pub fn built_in(sets: &[String]) -> Result<Loaded, Error> {
 /// relative to `directory`.
 pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Result<Loaded, Error> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if !text.trim().is_empty() && reading::is_deck(text) {
+        return parse_deck(text, file, directory, sets);
+    }
     let mut value = json(text, file)?;
     let applied = setting::apply(&mut value, sets, file)?;
-    let source = Source { text, file, applied: &applied };
-    let mut scene: Scene = serde_path_to_error::deserialize(&value).map_err(|error| {
+    let scene = typed(&value, &Source { text, file, applied: &applied })?;
+    let warnings = check::check(&scene, file)?;
+    let mut loaded = Loaded {
+        scene,
+        file: file.to_string(),
+        directory: directory.to_path_buf(),
+        motion: None,
+        deck: None,
+        state: None,
+        warnings,
+    };
+    read_motion(&mut loaded)?;
+    Ok(loaded)
+}
+
+/// Reads and checks a CABLE file, changed by `--set` entries that speak of its scene.
+fn parse_deck(text: &str, file: &str, directory: &Path, sets: &[String]) -> Result<Loaded, Error> {
+    let reading = reading::read(text, file)?;
+    let meaning = to_scene::meaning(&reading.deck);
+    let mut value = serde_json::to_value(&meaning.scene).unwrap_or_default();
+    let applied = setting::apply(&mut value, sets, file)?;
+    let mut scene = typed(&value, &Source { text: "", file, applied: &applied })?;
+    if scene.solver.scheme == Scheme::Cable1994 && reading.deck.step > 0.0 {
+        scene.solver.fixed_step.get_or_insert(reading.deck.step);
+    }
+    let placed = |error| if sets.is_empty() { in_the_deck(error, &reading) } else { error };
+    let mut warnings = reading.warnings.clone();
+    warnings.extend(meaning.warnings.iter().map(|warning| format!("{file}: {warning}")));
+    warnings.extend(check::check(&scene, file).map_err(placed)?);
+    let (deck, state) = (Some(Arc::new(reading.deck)), Some(Arc::new(meaning.state)));
+    let mut loaded =
+        Loaded { scene, file: file.to_string(), directory: directory.to_path_buf(), motion: None, deck, state, warnings };
+    read_motion(&mut loaded)?;
+    Ok(loaded)
+}
+
+/// An error of the check with line and column of the CABLE file.
+fn in_the_deck(error: Error, reading: &reading::Reading) -> Error {
+    let at = |place: String| match to_scene::spot(reading, &place) {
+        Some(spot) => format!("line {}, column {}, {place}", spot.line, spot.column),
+        None => place,
+    };
+    match error {
+        Error::Value { file, place, value, allowed } => Error::Value { file, place: at(place), value, allowed },
+        other => other,
+    }
+}
+
+/// A scene of the right types, with names.
+fn typed(value: &Value, source: &Source) -> Result<Scene, Error> {
+    let mut scene: Scene = serde_path_to_error::deserialize(value).map_err(|error| {
         let place = from_path(error.path());
         let (place, problem) = in_words(&error.inner().to_string(), place);
         source.error(place, problem)
     })?;
-    if let Some((place, problem)) = other_shape(&value, &scene) {
+    if let Some((place, problem)) = other_shape(value, &scene) {
         return Err(source.error(place, problem));
     }
     name_lines(&mut scene);
-    let mut warnings = check::check(&scene, file)?;
-    let motion = match &scene.motion {
-        Motion::File { path } => {
-            let table = motion_file::read(&directory.join(path), &scene.environment)?;
-            warnings.extend(check::motion_table(&scene, &table, path));
-            Some(Arc::new(table))
-        }
-        _ => None,
+    Ok(scene)
+}
+
+/// Reads the motion file that a checked scene names.
+fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
+    let Motion::File { path } = &loaded.scene.motion else { return Ok(()) };
+    let place = loaded.directory.join(path);
+    let table = match &loaded.deck {
+        Some(deck) if path == forced_motion::NAME => forced_motion::read(&place, deck, &loaded.scene.environment)?,
+        _ => motion_file::read(&place, &loaded.scene.environment)?,
     };
-    Ok(Loaded { scene, file: file.to_string(), directory: directory.to_path_buf(), motion, warnings })
+    loaded.warnings.extend(check::motion_table(&loaded.scene, &table, path));
+    loaded.motion = Some(Arc::new(table));
+    Ok(())
 }
 
 /// JSON Schema of a scene, from the types that read it.
@@ -105,7 +168,7 @@ pub(super) fn decode(bytes: Vec<u8>, file: &str) -> Result<String, Error> {
     })
 }
 
-/// JSON text as a tree. A text of another kind is told from a JSON text with a mistake in it.
+/// JSON text as a tree.
 fn json(text: &str, file: &str) -> Result<Value, Error> {
     let start = text.trim_start();
     let at = |offset: usize, place: Place, problem: Problem| {
@@ -114,11 +177,6 @@ fn json(text: &str, file: &str) -> Result<Value, Error> {
     };
     if start.is_empty() {
         return Err(at(text.len(), Place::default(), Problem::Empty));
-    }
-    if !start.starts_with(['{', '[', '"', '<', '/', '#']) {
-        let (line, _) = place::line_and_column(text, text.len() - start.len());
-        let feature = String::from("CABLE input files; a scene is a JSON object and begins with {");
-        return Err(Error::Unsupported { file: file.into(), place: format!("line {line}"), feature });
     }
     let value: Value = serde_json::from_str(text).map_err(|error| {
         let line_start = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum::<usize>();

@@ -520,13 +520,13 @@ pub struct Solver {
     #[serde(default = "default_max_step")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub max_step: f64,
-    /// Time step without step control [s], > 0. Default: none, the step is controlled.
+    /// Time step without step control [s], > 0. Default: none, the step is controlled; 0.1 with the scheme `cable-1994`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub fixed_step: Option<f64>,
-    /// Law of extension. Default `exact`.
-    #[serde(default)]
-    pub stretch: Stretch,
+    /// Law of extension. Default `exact`; with the scheme `cable-1994` it is `report`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stretch: Option<Stretch>,
     /// Strain from the hydrostatic pressure on the wall, as in the 1994 report. Default false.
     #[serde(default)]
     pub hydrostatic_strain: bool,
@@ -558,6 +558,9 @@ pub enum Stretch {
     /// r'·r' = 1 + 2 T/EA with the force T r', the 1994 report's law.
     Report,
 }
+
+/// Time step of the 1994 report's example [s].
+const REPORT_STEP: f64 = 0.1;
 
 fn standard_gravity() -> f64 {
     9.80665
@@ -600,9 +603,21 @@ impl Default for Solver {
             tolerance: default_tolerance(),
             max_step: default_max_step(),
             fixed_step: None,
-            stretch: Stretch::default(),
+            stretch: None,
             hydrostatic_strain: false,
         }
+    }
+}
+
+impl Solver {
+    /// The law of extension.
+    pub fn law(&self) -> Stretch {
+        self.stretch.unwrap_or(if self.scheme == Scheme::Cable1994 { Stretch::Report } else { Stretch::Exact })
+    }
+
+    /// Time step without step control [s]; none: the step is controlled.
+    pub fn uncontrolled_step(&self) -> Option<f64> {
+        self.fixed_step.or((self.scheme == Scheme::Cable1994).then_some(REPORT_STEP))
     }
 }
 

@@ -216,16 +216,17 @@ impl Waves {
         if easing == 0.0 || !(place.z + -self.floor()).any_positive() {
             return None;
         }
-        let (v, a) = if F::LANES > 1 {
-            self.sums::<F, true>(cpu, clock.now, easing, place)
-        } else {
-            let [x, y, z] = place.components().map(Real::first);
-            let (v, a) = self.processor.dispatch(Sums { waves: self, time: clock.now, easing, place: Triple { x, y, z } });
-            (v.map(|v| F::splat(cpu, v)), a.map(|a| F::splat(cpu, a)))
-        };
-        let triple = |[x, y, z]: [F; 3]| Triple { x, y, z };
-        let (v, a) = (triple(v), triple(a));
+        let rows = self.sums_at(F::LANES, clock.now, easing, [place.x.lanes(), place.y.lanes(), place.z.lanes()]);
+        let [vx, vy, vz, ax, ay, az] = &rows;
+        let (v, a) = (Triple::load(cpu, [vx, vy, vz], 0), Triple::load(cpu, [ax, ay, az], 0));
         Some(Flow { velocity: v.scale(easing), acceleration: v.scale_add(rise, a.scale(easing)) })
+    }
+
+    /// Sums of the velocities and accelerations at `count` places. On its own, so that it is not compiled into every loop over
+    /// elements.
+    #[inline(never)]
+    fn sums_at(&self, count: usize, time: f64, easing: f64, places: [[f64; MOST_LANES]; 3]) -> [[f64; MOST_LANES]; 6] {
+        self.processor.dispatch(Sums { waves: self, count, time, easing, places })
     }
 
     /// Sums of the velocities and accelerations of all components, before they are eased in. `PLACES`: the lanes hold several places,
@@ -321,22 +322,37 @@ impl Wave {
     }
 }
 
-/// `Waves::sums` at one place, with several components side by side.
+/// `Waves::sums` at several places side by side, or at one with several components side by side.
 struct Sums<'a> {
     waves: &'a Waves,
+    count: usize,
     time: f64,
     easing: f64,
-    place: Triple<f64>,
+    places: [[f64; MOST_LANES]; 3],
 }
 
 impl WithSimd for Sums<'_> {
-    type Output = ([f64; 3], [f64; 3]);
+    type Output = [[f64; MOST_LANES]; 6];
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> Self::Output {
-        let place = Triple::splat(cpu, &self.place.into());
-        let (v, a) = self.waves.sums::<Lanes<V>, false>(cpu, self.time, self.easing, &place);
-        (v.map(Real::first), a.map(Real::first))
+        let Sums { waves, count, time, easing, places: [x, y, z] } = &self;
+        let mut rows = [[0.0; MOST_LANES]; 6];
+        let mut at = 0;
+        while at < *count {
+            let (v, a) = if *count > 1 {
+                let place = Triple::load(cpu, [x, y, z], at);
+                waves.sums::<Lanes<V>, true>(cpu, *time, *easing, &place)
+            } else {
+                let place = Triple::splat(cpu, &Vector3::new(x[0], y[0], z[0]));
+                waves.sums::<Lanes<V>, false>(cpu, *time, *easing, &place)
+            };
+            for (row, sum) in rows.iter_mut().zip([v[0], v[1], v[2], a[0], a[1], a[2]]) {
+                sum.store(row, at);
+            }
+            at += V::F64_LANES;
+        }
+        rows
     }
 }
 

@@ -34,6 +34,8 @@ pub struct Tally {
     pub guarded: usize,
     /// Steps of the finest length whose error was still above the allowed one: the motion is rougher than time can resolve.
     pub unresolved: usize,
+    /// Steps of `cable-1994` with a part of the line pushing.
+    pub pushing: usize,
     /// Largest estimated error of an accepted step over the allowed one.
     pub error: f64,
 }

@@ -50,10 +50,22 @@ pub struct NodeOutput {
 /// Outputs of a state. End forces and node tensions are consistent nodal reactions, not stiffness times strain: 10 to 40 times
 /// more accurate on the same mesh. `forces` is room for those of the nodes.
 pub fn outputs(line: &dyn Line, state: &State, time: f64, work: f64, forces: &mut Vec<Vector3<f64>>) -> Outputs {
-    let last = line.last();
     forces.clear();
-    forces.resize(last + 1, Vector3::zeros());
+    forces.resize(line.last() + 1, Vector3::zeros());
     line.node_forces(&motion(state), forces);
+    from_forces(line, state, forces, time, work)
+}
+
+/// Force that the fairlead side exerts on the anchor side at every node [N].
+pub fn node_forces(line: &dyn Line, state: &State) -> Vec<Vector3<f64>> {
+    let mut forces = vec![Vector3::zeros(); line.last() + 1];
+    line.node_forces(&motion(state), &mut forces);
+    forces
+}
+
+/// Outputs of a state with given forces at the nodes [N], as `Line::node_forces` gives them.
+pub fn from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>], time: f64, work: f64) -> Outputs {
+    let last = line.last();
     let (force, anchor_force) = (-forces[last], forces[0]);
     Outputs {
         time,
@@ -83,8 +95,11 @@ pub fn along(line: &dyn Line, state: &State, change: &State, seconds: f64, step:
         moved.clock.now += factor * seconds;
         outputs(line, &moved, 0.0, 0.0, &mut forces)
     };
-    let (after, before) = (moved(step), moved(-step));
-    let per = 0.5 / step;
+    difference(&moved(step), &moved(-step), 0.5 / step)
+}
+
+/// The difference of two outputs times a factor; time and work are zero.
+pub fn difference(after: &Outputs, before: &Outputs, per: f64) -> Outputs {
     let turn = after.azimuth - before.azimuth;
     Outputs {
         time: 0.0,
@@ -135,10 +150,13 @@ pub fn end_along(line: &dyn Line, state: &State, change: &State) -> EndChange {
 /// Nodes of a state, from the fairlead. Of the two nodes of a joint one is left out, unless something acts there: then slope and
 /// tension jump, and both stand at one place.
 pub fn nodes(line: &dyn Line, state: &State) -> Vec<NodeOutput> {
+    nodes_from_forces(line, state, &node_forces(line, state))
+}
+
+/// The same with given forces at the nodes [N].
+pub fn nodes_from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>]) -> Vec<NodeOutput> {
     let mesh = line.mesh();
     let last = line.last();
-    let mut forces = vec![Vector3::zeros(); last + 1];
-    line.node_forces(&motion(state), &mut forces);
     let kept = |node: &usize| *node == last || !mesh.elements[*node].is_joint() || mesh.points.contains(node);
     let node_output = |node: usize| {
         let p = state.u.slope(node);

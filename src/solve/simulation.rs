@@ -1,5 +1,7 @@
 //! The facade: one mooring line through statics and time. The command, the report and the FMU see nothing else of the solver.
 
+use crate::cable1994::line::Tensions;
+use crate::cable1994::setup;
 use crate::error::{Cause, Error, Stuck, Unbalanced, Zone};
 use crate::rod::grading::Sample;
 use crate::rod::line::{Line, Supports};
@@ -7,9 +9,12 @@ use crate::rod::mesh::{Element, Mesh};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
-use crate::scene::types::Scene;
+use crate::scene::state::LineState;
+use crate::scene::types::{Scene, Scheme};
 use crate::solve::controller::{self, Controller, Demands, Failure, Leg};
+use crate::solve::line_state;
 use crate::solve::meshing;
+use crate::solve::mixed::{Advance, Mixed, Velocity};
 use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
 use crate::solve::outputs;
@@ -41,6 +46,8 @@ pub struct Counters {
     pub rejected_steps: usize,
     /// Accepted steps of the finest length whose estimated error was above the tolerance.
     pub unresolved_steps: usize,
+    /// Steps of `cable-1994` with a part of the line pushing.
+    pub pushing_steps: usize,
     /// Newton iterations.
     pub newton_iterations: usize,
     /// Factorisations of the tangent.
@@ -64,6 +71,8 @@ pub struct LastStep {
 pub struct Simulation {
     name: String,
     line: Box<dyn Line>,
+    /// The line by the report's own method, where the scene asks for it; `line` then gives mesh, first guess and bed.
+    mixed: Option<Mixed>,
     surroundings: Surroundings,
     supports: Supports,
     decisions: Vec<Decision>,
@@ -92,6 +101,24 @@ pub struct Linearised {
     legs: Vec<Leg>,
     states: Vec<State>,
     stages: Vec<LinearStage>,
+    repeated: Option<Repeated>,
+}
+
+/// Where steps of `cable-1994` begin, until when and along which path: they are repeated, not linearised.
+type Repeated = (Snapshot, f64, Path);
+
+impl Linearised {
+    fn repeated(from: &Snapshot, until: f64, path: &Path) -> Linearised {
+        Linearised {
+            time: from.moment.state.clock.now,
+            history: 0.0,
+            fresh: false,
+            legs: Vec::new(),
+            states: Vec::new(),
+            stages: Vec::new(),
+            repeated: Some((from.clone(), until, path.clone())),
+        }
+    }
 }
 
 /// Local error of the positions allowed in a step, as a share of tolerance × (tension / stiffness of the fairlead). Below a tolerance of
@@ -108,6 +135,8 @@ const NEWTON_SHARE: f64 = 3.0e-3;
 const BREAKAWAY_SHARE: f64 = 0.05;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
 const MESH_SHARE: f64 = 0.3;
+/// How far `cable-1994` may leave the path of its fairlead, as a share of the line's length: it prescribes the velocity and adds it up.
+const MIXED_JUMP: f64 = 1.0e-4;
 
 impl Simulation {
     /// Line number `index` of a checked scene: meshes it and picks its physics. Where the scene leaves the mesh to the program, it
@@ -165,15 +194,23 @@ impl Simulation {
 
     /// Line number `index` of a checked scene on a given mesh.
     fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Result<Simulation, Error> {
+        let solver = &scene.solver;
+        let is_mixed = solver.scheme == Scheme::Cable1994;
+        let mesh = if is_mixed { mesh.without_joints() } else { mesh };
         let supports = physics::supports(scene, &scene.lines[index], &mesh);
-        let (decisions, nodes, length) = (physics::decisions(scene, &mesh, &supports), mesh.nodes(), mesh.length);
+        let mixed = solver.uncontrolled_step().filter(|_| is_mixed).map(|step| {
+            let line = setup::line(scene, &scene.lines[index], &mesh, supports.clone());
+            (Mixed::new(line, step), setup::decisions(scene, &mesh, step))
+        });
+        let (mixed, report) = mixed.unzip();
+        let decisions = report.unwrap_or_else(|| physics::decisions(scene, &mesh, &supports));
+        let (nodes, length) = (mesh.nodes(), mesh.length);
         let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
         let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
         let surroundings = Surroundings::of(scene, &mesh);
         let line = physics::build(mesh, surroundings.clone(), supports.clone());
-        let solver = &scene.solver;
         // A fixed step is asked for to compare: nothing but the step shall be seen in the result.
-        let share = if solver.fixed_step.is_some() { 1.0e-4 } else { NEWTON_SHARE };
+        let share = if solver.uncontrolled_step().is_some() { 1.0e-4 } else { NEWTON_SHARE };
         // Where friction holds the line, what the iteration leaves must be small against the way to breaking away.
         let holding = surroundings.breakaway().map_or(f64::INFINITY, |breakaway| BREAKAWAY_SHARE * breakaway / length);
         let tolerance = (share * solver.tolerance).clamp(1e-11, 1e-4).min(holding);
@@ -192,11 +229,12 @@ impl Simulation {
                 error: 0.0,
                 finest_step: (FINEST_SHARE * solver.max_step).max(CROSSING_SHARE * crossing).min(solver.max_step),
                 max_step: solver.max_step,
-                fixed_step: solver.fixed_step,
+                fixed_step: solver.uncontrolled_step(),
                 criteria,
             },
             moment: controller::at_rest(line.as_ref(), 0.0, solver.max_step),
             line,
+            mixed,
             work: 0.0,
             works: false,
             fresh: true,
@@ -240,11 +278,11 @@ impl Simulation {
         let (anchor, fairlead) = (self.start_of(0, self.anchor), self.start_of(self.line.last(), fairlead));
         start::guess(self.line.mesh(), &self.bounds, &anchor, &fairlead, &mut self.moment.state.u);
         self.line.place(0, &mut self.moment.state.u, time);
-        let (balance, tension_length) = self.balance();
-        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * tension_length;
-        self.newton.forget();
-        self.newton.effort = Effort::default();
-        (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
+        let (mut balance, smooth) = self.balance();
+        if let Some(mixed) = &mut self.mixed {
+            balance = mixed.settle(self.line.as_ref(), &mut self.moment.state, balance);
+        }
+        self.begin_anew(smooth.as_deref());
         if balance.converged() {
             return Ok(StaticsReport { iterations: balance.iterations, residual: balance.residual, converged: true });
         }
@@ -259,8 +297,8 @@ impl Simulation {
     }
 
     /// Finds the equilibrium without friction, and from there, if there is friction, that of the line as it is laid and the places of the
-    /// bed that hold it there; returns the tension length without friction, too.
-    fn balance(&mut self) -> (Balance, f64) {
+    /// bed that hold it there; returns the line without friction, too.
+    fn balance(&mut self) -> (Balance, Option<Box<dyn Line>>) {
         let (mesh, surroundings, supports) = (self.line.mesh(), &self.surroundings, &self.supports);
         let soften = |limit: f64, surroundings: Surroundings| {
             let mut soft = mesh.clone();
@@ -275,7 +313,7 @@ impl Simulation {
         let (line, newton, state) = (self.line.as_ref(), &mut self.newton, &mut self.moment.state);
         if line.holding_nodes() == 0 {
             let balance = statics::settle(line, &|limit| soften(limit, surroundings.clone()), newton, state);
-            return (balance, tension_length(line, newton, state));
+            return (balance, None);
         }
         let smooth = soften(f64::INFINITY, surroundings.without_friction());
         let mut balance = statics::settle(smooth.as_ref(), &|limit| soften(limit, surroundings.without_friction()), newton, state);
@@ -287,7 +325,18 @@ impl Simulation {
             balance.iterations += before;
             laid.hold(&state.u, &state.v, &mut state.holds);
         }
-        (balance, tension_length(smooth.as_ref(), newton, state))
+        (balance, Some(smooth))
+    }
+
+    /// What a new beginning resets, and the error of a step that is allowed from here; `smooth` is the line without friction, if it
+    /// has any.
+    fn begin_anew(&mut self, smooth: Option<&dyn Line>) {
+        let line = smooth.unwrap_or(self.line.as_ref());
+        let tension_length = tension_length(line, &mut self.newton, &self.moment.state);
+        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * tension_length;
+        self.newton.forget();
+        self.newton.effort = Effort::default();
+        (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
     }
 
     /// Advances to a time with the fairlead on a path. On an error the state is the one before the call.
@@ -295,10 +344,17 @@ impl Simulation {
         self.check_path(until, path)?;
         self.before.moment.copy_from(&self.moment);
         (self.before.work, self.before.fresh, self.before.last) = (self.work, self.fresh, self.last);
+        if let Some(mixed) = &self.mixed {
+            self.before.tensions.clone_from(mixed.tensions());
+        }
         let effort = self.newton.effort;
         let steps = self.controller.tally.steps;
         self.controller.tally.error = 0.0;
-        let outcome = self.begin(path).and_then(|()| self.run(until, path));
+        let outcome = if self.mixed.is_some() {
+            self.run_mixed(until, &|time| path.at(time).velocity)
+        } else {
+            self.begin(path).and_then(|()| self.run(until, path))
+        };
         match outcome {
             Ok(()) => {
                 self.last = LastStep {
@@ -320,6 +376,9 @@ impl Simulation {
     pub fn undo(&mut self) {
         std::mem::swap(&mut self.moment, &mut self.before.moment);
         (self.work, self.fresh, self.last) = (self.before.work, self.before.fresh, self.before.last);
+        if let Some(mixed) = &mut self.mixed {
+            mixed.restore(&self.before.tensions);
+        }
         self.newton.forget();
     }
 
@@ -337,6 +396,19 @@ impl Simulation {
                 (*force, *place) = (force_now, place_now);
             }
         })
+    }
+
+    /// The same by the report's own method.
+    fn run_mixed(&mut self, until: f64, velocity: Velocity) -> Result<(), Failure> {
+        let Some(mixed) = &mut self.mixed else { return Ok(()) };
+        let Advance { steps, pushing, work } = mixed.advance(&mut self.moment, until, velocity)?;
+        self.fresh = false;
+        self.work += work;
+        self.controller.tally.steps += steps;
+        self.controller.tally.pushing += pushing;
+        self.newton.effort.iterations += steps;
+        self.newton.effort.factorisations += steps;
+        Ok(())
     }
 
     /// Before the first step after statics: the fairlead takes up the velocity and acceleration of its path, the line those that fit.
@@ -366,7 +438,7 @@ impl Simulation {
             Cause::BadMotion
         } else if !self.line.is_pinned(self.line.last()) {
             return Ok(());
-        } else if jump > 1e-6 * length {
+        } else if jump > self.mixed.as_ref().map_or(1e-6, |_| MIXED_JUMP) * length {
             Cause::Jump { distance: jump }
         } else if reach > 2.0 * length {
             Cause::OutOfReach { distance: reach, length }
@@ -392,10 +464,12 @@ impl Simulation {
             time: failure.time,
             s: self.arc_length(node),
             zone: self.zone(node),
-            cause: match failure.stall {
-                None => Cause::TooInaccurate { step },
-                Some(Stall::NotFinite { .. }) => Cause::NotFinite { step },
-                Some(_) => Cause::NoSolution { step },
+            cause: match (failure.stall, &self.mixed) {
+                (None, Some(mixed)) => Cause::StepTooShort { step, shortest: mixed.shortest_step() },
+                (Some(_), Some(_)) => Cause::Diverged { step },
+                (None, None) => Cause::TooInaccurate { step },
+                (Some(Stall::NotFinite { .. }), None) => Cause::NotFinite { step },
+                (Some(_), None) => Cause::NoSolution { step },
             },
             fairlead_speed: path.at(failure.time).velocity.norm(),
             last_good_time,
@@ -438,6 +512,9 @@ impl Simulation {
         }
         snapshot.moment.copy_from(&self.moment);
         snapshot.error = self.demands.error;
+        if let Some(mixed) = &self.mixed {
+            snapshot.tensions.clone_from(mixed.tensions());
+        }
         (snapshot.work, snapshot.fresh, snapshot.last) = (self.work, self.fresh, self.last);
     }
 
@@ -445,6 +522,9 @@ impl Simulation {
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
         if !self.fits(snapshot) {
             return false;
+        }
+        if let Some(mixed) = &mut self.mixed {
+            mixed.restore(&snapshot.tensions);
         }
         self.newton.forget();
         self.moment.copy_from(&snapshot.moment);
@@ -455,11 +535,16 @@ impl Simulation {
 
     /// Whether a state is one of this line: it has as many nodes.
     pub fn fits(&self, snapshot: &Snapshot) -> bool {
-        snapshot.nodes() == self.line.mesh().nodes() && snapshot.moment.state.holds.nodes() == self.line.holding_nodes()
+        let tensions = self.mixed.as_ref().map_or(snapshot.tensions.now.is_empty(), |mixed| mixed.fits(&snapshot.tensions));
+        let holds = snapshot.moment.state.holds.nodes() == self.line.holding_nodes();
+        snapshot.nodes() == self.line.mesh().nodes() && tensions && holds
     }
 
     /// Rates of the outputs in time, from the motion of the line now and the change of its acceleration over the last step.
     pub fn output_rates(&self) -> Outputs {
+        if let Some(mixed) = &self.mixed {
+            return mixed.output_rates(self.line.as_ref(), &self.moment);
+        }
         let (state, moment) = (&self.moment.state, &self.moment);
         let mut jerk = Field::new(state.a.nodes());
         if moment.last_step > 0.0 {
@@ -478,7 +563,11 @@ impl Simulation {
     pub fn linearise(&mut self, until: f64, path: &Path) -> Result<Linearised, Error> {
         let now = self.snapshot();
         let tally = (self.controller.tally, self.newton.effort);
-        let outcome = self.linearise_from_here(until, path);
+        let outcome = if self.mixed.is_some() {
+            Ok(Linearised::repeated(&now, until, path))
+        } else {
+            self.linearise_from_here(until, path)
+        };
         let outcome = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, now.moment.state.clock.now))));
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
@@ -503,7 +592,7 @@ impl Simulation {
             legs.push(*leg);
         })?;
         let stages = solved.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
-        Ok(Linearised { time, history, fresh, legs, states, stages })
+        Ok(Linearised { time, history, fresh, legs, states, stages, repeated: None })
     }
 
     /// Change of all outputs at the end of linearised steps per variation of their path: the steps are differentiated, not repeated.
@@ -512,8 +601,29 @@ impl Simulation {
         outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, variation, steps.time))))
     }
 
+    /// Central differences of the report's steps: each is one linear solve, and takes less time than to differentiate it would.
+    fn difference_of_repeats(&mut self, (from, until, path): &Repeated, variation: &Path) -> Result<Outputs, Failure> {
+        let now = self.snapshot();
+        let tally = (self.controller.tally, self.newton.effort);
+        let share = 1.0e-4;
+        let mut moved = |share: f64| {
+            self.restore(from);
+            self.run_mixed(*until, &|time| path.at(time).velocity + variation.at(time).velocity * share)?;
+            Ok(self.outputs())
+        };
+        let ends = moved(share).and_then(|after| Ok((after, moved(-share)?)));
+        self.restore(&now);
+        (self.controller.tally, self.newton.effort) = tally;
+        let (after, before) = ends?;
+        let work = (after.work - before.work) * (0.5 / share);
+        Ok(Outputs { work, ..outputs::difference(&after, &before, 0.5 / share) })
+    }
+
     fn change(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Failure> {
-        let Linearised { time, history, fresh, legs, states, stages } = steps;
+        if let Some(repeated) = &steps.repeated {
+            return self.difference_of_repeats(repeated, variation);
+        }
+        let Linearised { time, history, fresh, legs, states, stages, .. } = steps;
         let (line, criteria) = (self.line.as_ref(), self.demands.criteria);
         let failed = |stall| Failure { time: *time, step: 0.0, stall: Some(stall) };
         let stages = Stages::Linear(stages.iter());
@@ -539,18 +649,56 @@ impl Simulation {
 
     /// Outputs now.
     pub fn outputs(&self) -> Outputs {
+        if let Some(mixed) = &self.mixed {
+            return mixed.outputs(self.line.as_ref(), &self.moment, self.work);
+        }
         outputs::outputs(self.line.as_ref(), &self.moment.state, self.moment.state.clock.now, self.work, &mut Vec::new())
     }
 
     /// Outputs now, without allocating anything.
     pub fn observe(&mut self) -> Outputs {
+        if let Some(mixed) = &self.mixed {
+            return mixed.outputs(self.line.as_ref(), &self.moment, self.work);
+        }
         let time = self.moment.state.clock.now;
         outputs::outputs(self.line.as_ref(), &self.moment.state, time, self.work, &mut self.forces)
     }
 
     /// Nodes now, from the fairlead.
     pub fn nodes(&self) -> Vec<NodeOutput> {
+        if let Some(mixed) = &self.mixed {
+            return mixed.nodes(self.line.as_ref(), &self.moment.state);
+        }
         outputs::nodes(self.line.as_ref(), &self.moment.state)
+    }
+
+    /// Nodes now as the files of 1994 have them, from the fairlead: with slopes, rates and λ.
+    pub fn line_state(&self) -> LineState {
+        let (line, state) = (self.line.as_ref(), &self.moment.state);
+        match &self.mixed {
+            Some(mixed) => line_state::of(line, state, &mixed.tensions().now),
+            None => {
+                let forces = outputs::node_forces(line, state);
+                line_state::of(line, state, &line_state::tensions(line, self.surroundings.stretch, state, &forces))
+            }
+        }
+    }
+
+    /// Begins from given nodes instead of from equilibrium; false, and nothing changed, if a node of the mesh is not among them. The
+    /// accelerations are those that fit; λ is taken over by `cable-1994` alone. Friction begins as on a line
+    /// laid slack and pulled tight.
+    pub fn start_from(&mut self, given: &LineState) -> bool {
+        let mut moment = controller::at_rest(self.line.as_ref(), given.time, self.demands.max_step);
+        let Some(tensions) = line_state::set(self.line.as_ref(), given, &mut moment.state) else { return false };
+        let State { u, v, holds, .. } = &mut moment.state;
+        self.line.lay(u, holds);
+        self.line.hold(u, v, holds);
+        self.moment = moment;
+        if let Some(mixed) = &mut self.mixed {
+            mixed.restore(&Tensions { now: tensions.clone(), before: tensions });
+        }
+        self.begin_anew(None);
+        true
     }
 
     /// Number of elements.
@@ -586,6 +734,7 @@ impl Simulation {
             steps: tally.steps,
             rejected_steps: tally.rejected,
             unresolved_steps: tally.unresolved,
+            pushing_steps: tally.pushing,
             newton_iterations: effort.iterations,
             factorisations: effort.factorisations,
             element_iterations: effort.iterations * self.elements(),

@@ -1,5 +1,6 @@
 //! The complete state of a line in time as plain data, and as bytes.
 
+use crate::cable1994::line::Tensions;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::sea::clock::Clock;
 use crate::solve::scheme::Moment;
@@ -9,6 +10,8 @@ use crate::solve::simulation::LastStep;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
     pub(super) moment: Moment,
+    /// Of `cable-1994`; empty for every other scheme.
+    pub(super) tensions: Tensions,
     pub(super) work: f64,
     pub(super) fresh: bool,
     pub(super) error: f64,
@@ -28,9 +31,9 @@ impl Moment {
 impl Snapshot {
     /// Room for the state of a line of so many nodes.
     pub fn new(nodes: usize) -> Snapshot {
-        let (state, earlier) = (State::new(nodes), Field::new(nodes));
+        let (state, earlier, tensions) = (State::new(nodes), Field::new(nodes), Tensions::default());
         let moment = Moment { state, earlier, last_step: 0.0, step: 0.0, guard: 0 };
-        Snapshot { moment, work: 0.0, fresh: true, error: 0.0, last: LastStep::default() }
+        Snapshot { moment, tensions, work: 0.0, fresh: true, error: 0.0, last: LastStep::default() }
     }
 
     /// Number of nodes of the line it belongs to.
@@ -38,8 +41,8 @@ impl Snapshot {
         self.moment.state.u.nodes()
     }
 
-    /// Appends the state as little-endian 8-byte words: nodes, flags and counts, scalars, then u, v, a, the
-    /// earlier a and what friction holds on to.
+    /// Appends the state as little-endian 8-byte words: nodes, of the line and of what friction holds on to, flags and counts,
+    /// scalars, then u, v, a, the earlier a and what friction holds on to, and of `cable-1994` its tensions now and before.
     pub fn to_bytes(&self, out: &mut Vec<u8>) {
         let (m, last) = (&self.moment, &self.last);
         let words = [
@@ -52,7 +55,8 @@ impl Snapshot {
         ];
         let scalars = [m.state.clock.now, m.state.clock.start, m.last_step, m.step, self.work, self.error, last.error_estimate];
         let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds];
-        let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).map(|x| x.to_bits());
+        let tensions = self.tensions.now.iter().chain(&self.tensions.before);
+        let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).chain(tensions).map(|x| x.to_bits());
         words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
     }
 
@@ -62,7 +66,13 @@ impl Snapshot {
         let nodes = usize::try_from(words.next()?).ok()?;
         let holding = usize::try_from(words.next()?).ok()?;
         let numbers = nodes.checked_mul(4)?.checked_add(holding)?.checked_mul(COMPONENTS)?;
-        if bytes.len() != numbers.checked_add(13)?.checked_mul(8)? || nodes < 2 {
+        let expected = numbers.checked_add(13)?.checked_mul(8)?;
+        let per_node = match bytes.len().checked_sub(expected)? {
+            0 => 0,
+            more if more == 4 * 8 * nodes => 2,
+            _ => return None,
+        };
+        if nodes < 2 {
             return None;
         }
         let fresh = match words.next()? {
@@ -85,8 +95,11 @@ impl Snapshot {
             Some(field)
         };
         let (u, v, a, earlier, holds) = (field(nodes)?, field(nodes)?, field(nodes)?, field(nodes)?, field(holding)?);
+        let mut list = || (0..per_node * nodes).map(|_| number()).collect::<Option<Vec<f64>>>();
+        let tensions = Tensions { now: list()?, before: list()? };
         Some(Snapshot {
             moment: Moment { state: State { clock, u, v, a, holds }, earlier, last_step, step, guard },
+            tensions,
             work,
             fresh,
             error,
