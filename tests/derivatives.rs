@@ -212,7 +212,12 @@ fn error(line: &dyn Line, state: &State, weights: &Weights, random: &mut Random,
 
 fn error_along(line: &dyn Line, state: &State, weights: &Weights, direction: &Field, d: f64) -> f64 {
     let mut matrix = BlockTridiagonal::new(line.mesh().ties());
-    line.tangent(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }, weights, None, &mut matrix);
+    line.tangent(
+        &Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds },
+        weights,
+        None,
+        &mut matrix,
+    );
     let product = times(&matrix, direction);
     let moved = |sign: f64| {
         let mut moved = state.clone();

@@ -111,7 +111,10 @@ fn tangent_of_a_table_is_the_change_of_the_residual() {
         }
         let residual = |state: &State| {
             let mut out = state.u.clone();
-            line.residual(&Motion { clock: Clock::default(), u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }, &mut out);
+            line.residual(
+                &Motion { clock: Clock::default(), u: &state.u, v: &state.v, a: &state.a, holds: &state.holds },
+                &mut out,
+            );
             out
         };
         let at = Motion { clock: Clock::default(), u: &state.u, v: &state.v, a: &state.a, holds: &state.holds };

@@ -316,7 +316,8 @@ impl Simulation {
             return (balance, None);
         }
         let smooth = soften(f64::INFINITY, surroundings.without_friction());
-        let mut balance = statics::settle(smooth.as_ref(), &|limit| soften(limit, surroundings.without_friction()), newton, state);
+        let mut balance =
+            statics::settle(smooth.as_ref(), &|limit| soften(limit, surroundings.without_friction()), newton, state);
         if balance.converged() {
             let laid = soften(f64::INFINITY, surroundings.laid(mesh));
             laid.lay(&state.u, &mut state.holds);
