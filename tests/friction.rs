@@ -44,8 +44,8 @@ fn catenary_with_friction(mu: f64) -> [f64; 3] {
     [h.hypot(lift(h)), (h - mu * WEIGHT * on_bed(h)).max(0.0), on_bed(h)]
 }
 
-/// Source: closed form above. The bed is 1000 times stiffer than the built-in one (5e6 Pa), 100 elements. Measured: end tension 2e-5; anchor
-/// tension 2e-5 of the end tension where it is not zero, and less than 1e-6 of it where the friction takes all; length on the bed 3e-3, a sixth
+/// Source: closed form above. The bed is 1000 times stiffer than the built-in one (5e6 Pa), 100 elements. Measured: end tension 1.2e-5; anchor
+/// tension 1.4e-5 of the end tension where it is not zero, and less than 1e-6 of it where the friction takes all; length on the bed 3e-3, a sixth
 /// of an element, where the mesh cannot resolve the touchdown of a stiff bed.
 #[test]
 fn friction_takes_its_share_of_the_tension_for_every_metre_on_the_bed() {
@@ -63,13 +63,15 @@ fn friction_takes_its_share_of_the_tension_for_every_metre_on_the_bed() {
 }
 
 /// Source: balance of forces along a bed that rises by 8° towards the fairlead, or falls: the tension changes by w (sin a ± μ cos a)
-/// per metre; both ends on the bed. Pulled from below as from above, μ = 0.5. NOT YET RUN: tolerance is a guess.
+/// per metre; both ends on the bed. Pulled from below as from above, μ = 0.5. The whole line is about to slide,
+/// so nothing is left to the mesh; measured 4e-12.
 #[test]
 fn on_a_slope_weight_and_friction_add_up() {
     for slope in [8.0, -8.0] {
         let (sine, cosine) = f64::to_radians(slope).sin_cos();
         let end = 501.5;
         let simulation = settled(&built_in(&[
+            "motion={\"kind\":\"fixed\"}".into(),
             format!("environment.seabed={}", json!({"friction": 0.5, "slope_deg": [slope, 0.0]})),
             format!("lines[0].anchor={}", json!([0.0, 0.0, -120.0 + 1e-12])),
             format!("lines[0].fairlead={}", json!([end * cosine, 0.0, -120.0 + end * sine + 1e-12])),
@@ -78,13 +80,14 @@ fn on_a_slope_weight_and_friction_add_up() {
         ]));
         let found = simulation.outputs();
         let exact = 500.0 * WEIGHT * (sine + 0.5 * cosine);
-        assert_close(&format!("change of tension at {slope}°"), found.tension - found.anchor_tension, exact, 1e-6);
+        assert_close(&format!("change of tension at {slope}°"), found.tension - found.anchor_tension, exact, 1e-10);
         assert_close("length on the bed", found.grounded_length, 500.0, 1e-9);
     }
 }
 
 /// A line at rest stays at rest: with the fairlead still for a minute, the built-in chain with all its friction in use keeps its tensions.
-/// Without the spring the anchor tension would be that of a line without friction in the end. NOT YET RUN in this form; a prototype gave 2e-11 of the end tension with adams-moulton.
+/// Without the spring the anchor tension would be that of a line without friction in the end.
+/// Measured: 2e-12 of the end tension, with every scheme; 1e-10 is a thousandth of what statics leaves unbalanced.
 #[test]
 fn a_line_at_rest_does_not_creep() {
     for scheme in ["adams-moulton", "esdirk3", "generalized-alpha"] {
@@ -98,15 +101,15 @@ fn a_line_at_rest_does_not_creep() {
         for k in 1..=60 {
             simulation.advance(k as f64, &path).unwrap_or_else(|error| panic!("{error}"));
             let now = simulation.outputs();
-            assert_small("change of the anchor tension", (now.anchor_tension - before.anchor_tension) / before.tension, 1e-8);
-            assert_small("change of the end tension", now.tension / before.tension - 1.0, 1e-8);
+            assert_small("change of the anchor tension", (now.anchor_tension - before.anchor_tension) / before.tension, 1e-10);
+            assert_small("change of the end tension", now.tension / before.tension - 1.0, 1e-10);
         }
     }
 }
 
 /// Source: a line thrown along the bed, lengthwise, sideways or askew, is slowed down by a = 1.01 μ w/m (bound in time): x = v t - a t²/2,
 /// which the end is made to do as well; the line is so soft (1 kN) that the end has no say in the rest. Allowed is the distance d/10
-/// within which the friction comes up; without friction it would be 0.4 m off.
+/// within which the friction comes up (measured: 0.1 to 6.9 mm, by how the steps of 2 ms fall into it).
 #[test]
 fn a_line_thrown_along_the_bed_is_slowed_down_by_friction() {
     let (speed, slowing) = (2.0, 1.01 * 0.5 * WEIGHT / 135.35);
@@ -139,7 +142,7 @@ fn on_a_line_along_x(mesh: Mesh, ground: Ground, holding: Holding) -> Rig {
         rig.state.u.set_slope(node, &Vector3::x());
     }
     rig.state.holds = Field::new(rig.line.holding_nodes());
-    rig.line.hold(&rig.state.u, &rig.state.v, &mut rig.state.holds);
+    rig.line.lay(&rig.state.u, &mut rig.state.holds);
     rig
 }
 
@@ -191,7 +194,8 @@ fn what_friction_holds_on_to_is_part_of_the_snapshot() {
     assert!(!simulation.restore(&smooth), "a state without friction belongs to another line");
 }
 
-/// Derivatives of a step with friction against differences of two steps from the same state, the fairlead's velocity varied by ± 1e-4 m/s.
+/// Derivatives of a step with friction against differences of two steps from the same state, the fairlead's acceleration varied by ± 2e-3 m/s².
+/// Measured: 1.4e-8, what the differences leave.
 #[test]
 fn the_derivative_of_a_step_knows_what_friction_holds_on_to() {
     let loaded = built_in(&["environment.seabed.friction=0.7".into(), "solver.tolerance=1e-5".into()]);
@@ -211,11 +215,5 @@ fn the_derivative_of_a_step_knows_what_friction_holds_on_to() {
         simulation.outputs()
     };
     let (up, down) = (after(1e-3), after(-1e-3));
-    assert_close("tension", exact[0].tension, (up.tension - down.tension) / 2e-3, 1e-3);
-    assert_close(
-        "tension at the anchor",
-        1.0 + exact[0].anchor_tension / exact[0].tension,
-        1.0 + (up.anchor_tension - down.anchor_tension) / 2e-3 / exact[0].tension,
-        1e-3,
-    );
+    assert_close("tension", exact[0].tension, (up.tension - down.tension) / 2e-3, 1e-6);
 }
