@@ -90,6 +90,7 @@ pub mod solve {
     pub mod controller;
     pub mod departure;
     pub mod esdirk;
+    pub mod fleet;
     pub mod generalized_alpha;
     pub mod line_state;
     pub mod meshing;
@@ -97,6 +98,8 @@ pub mod solve {
     pub mod motion;
     pub mod newton;
     pub mod outputs;
+    pub mod relaxation;
+    pub mod rest;
     pub mod scheme;
     pub mod search;
     pub mod simulation;

@@ -359,7 +359,7 @@ const BAD: &[(&str, &str, &[&str])] = &[
         " 1.35350E+02 1.3535OE+02 1.35350E+02",
         &["line 33, column 14", "MEL", "`1.3535OE+02`"],
     ),
-    ("    27.11070   -13.02786", "    27.11.70   -13.02786", &["R, position of node 2", "`27.11.70`", "line 44, column 5"]),
+    ("    27.11070   -13.02786", "    27.11.70   -13.02786", &["R, position of node 2", "`27.11.70`", "line 45, column 5"]),
     (" 1.32174E+06 1.31435E+06 ", " 1.32174E+06         Inf ", &["LAMBDA at node 2", "Inf", "finite"]),
     ("Node No. 41", "Node No. 42", &["NODEC", "42 is not allowed", "1 to 41"]),
     ("Node No. 41", "Node No.  1", &["NODEC", "second time"]),
@@ -415,7 +415,7 @@ fn ten_thousand_nodes_and_twelve_types_are_read() {
     large.constraints[1].node = 9_999;
     let text = writing::text(&large);
     assert_eq!(deck(&text), large);
-    let loaded = loaded(&text, &["solver.hydrostatic_strain=false"]);
+    let loaded = loaded(&text, &[]);
     assert_eq!((loaded.scene.line_types.len(), loaded.scene.lines[0].sections.len()), (12, 9_999));
     assert_eq!(loaded.state.map(|state| state.nodes.len()), Some(10_000));
 }
@@ -431,7 +431,7 @@ fn the_check_of_a_scene_names_the_line_of_the_file() {
 
 #[test]
 fn a_file_is_known_by_its_content_and_sets_speak_of_its_scene() {
-    let loaded = loaded(DYNAMIC, &["solver.hydrostatic_strain=false", "environment.depth=130", "run.duration=5"]);
+    let loaded = loaded(DYNAMIC, &["environment.depth=130", "run.duration=5"]);
     assert_eq!((loaded.scene.environment.depth, loaded.scene.run.duration), (130.0, 5.0));
     assert!(loaded.deck.is_some() && loaded.state.is_some());
     let titled = DYNAMIC.replacen("Dynamic analysis", "{Dynamic analysis", 1);
@@ -517,7 +517,7 @@ proptest! {
         deck.elements[2].length = value.abs().max(0.1);
         deck.types[0].mass = [value.abs().max(0.1); 3];
         let read = self::deck(&writing::text(&deck));
-        let close = |a: f64, b: f64| (a - b).abs() <= 1e-5 * b.abs() + 1e-12;
+        let close = |a: f64, b: f64| (a - b).abs() <= 2e-5 * b.abs() + 1e-12;
         prop_assert!(close(read.currents[1].1[0], value), "{} {}", read.currents[1].1[0], value);
         prop_assert!(close(read.elements[2].length, value.abs().max(0.1)) || value.abs() < 1.0);
         prop_assert!(close(read.types[0].mass[0], value.abs().max(0.1)));
@@ -625,9 +625,11 @@ mod program {
             let here = directory(&format!("restart-{scheme}"));
             let whole = Deck { end: 4.0, ..deck(DYNAMIC) };
             let set = format!("solver.scheme={scheme}");
-            let sets = ["--quiet", "--set", &set, "--set", "solver.hydrostatic_strain=false"];
+            let sets = ["--quiet", "--set", &set];
             let run = |file: &str, to: &str| {
                 done(&here, &[&["run", file, "-o", to][..], &sets[..]].concat());
+                let summary = read(here.join(to).join("summary.json"));
+                assert!(!summary.contains("equilibrium"), "nodes of the static example are in equilibrium: {summary}");
                 rows(&read(here.join(to).join("timeseries.csv")))
             };
             write(&here, "whole.dat", &writing::text(&whole));

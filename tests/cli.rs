@@ -98,13 +98,6 @@ fn mistakes_on_the_command_line_are_bad_input() {
 }
 
 #[test]
-fn commands_to_come_say_so() {
-    let here = directory("later");
-    assert_fails(&moorline(&here, &["convert", "a.json", "a.dat"]), 2, &["moorline convert", "later version"]);
-    assert!(!here.join("a.dat").exists());
-}
-
-#[test]
 fn schema_is_a_json_schema_of_the_scene() {
     let output = moorline(&directory("schema"), &["schema"]);
     assert_done(&output);

@@ -187,7 +187,7 @@ fn wire_under_waves_feels_morison() {
     assert_close("against them", largest(&mut last().map(|x| -x)), largest(&mut exact.iter().map(|x| -x)), 5e-3);
 }
 
-/// Every scene of examples/ is tested here; the built-in case in tests/published.rs.
+/// Every scene of examples/ is tested here; the built-in case in tests/published.rs, the report's in tests/cable_1994.rs.
 #[test]
 fn every_example_has_its_answer() {
     let tests = include_str!("examples.rs");
@@ -195,7 +195,7 @@ fn every_example_has_its_answer() {
     let names: Vec<String> = std::fs::read_dir(directory)
         .expect("examples/")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-        .filter(|name| name.ends_with(".json") && name != "lindahl-sjoberg.json")
+        .filter(|name| name.ends_with(".json") && !["lindahl-sjoberg.json", "ma-webster-1994.json"].contains(&name.as_str()))
         .collect();
     assert!(names.len() >= 5, "{names:?}");
     for name in names {

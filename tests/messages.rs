@@ -310,7 +310,6 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         r#""solver": {"scheme": "cable-1994", "stretch": "exact"}, "run": {"#,
         &["solver.stretch", "\"exact\"", "cable-1994 is built on the report's law"],
     ),
-    (r#""run": {"#, r#""solver": {"hydrostatic_strain": true}, "run": {"#, &["solver.hydrostatic_strain", "does not support"]),
 ];
 
 #[test]

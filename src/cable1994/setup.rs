@@ -2,18 +2,22 @@
 
 use crate::cable1994::element::Element;
 use crate::cable1994::line::MixedLine;
+use crate::rod::elasticity::Pressures;
 use crate::rod::line::Supports;
 use crate::rod::mesh::Mesh;
 use crate::rod::physics::{self, Decision};
-use crate::scene::types::{Environment, Line, LineType, Scene};
+use crate::scene::types::{Line, LineType, Scene};
 use crate::sea::current::Current;
 
 /// The line of a scene on a mesh without joints: slope and λ of this element are continuous, also where the stiffness jumps.
 pub fn line(scene: &Scene, line: &Line, mesh: &Mesh, supports: Supports) -> MixedLine {
     let (environment, ground) = (&scene.environment, physics::ground(&scene.environment, mesh));
+    let strained = |line_type: &LineType| match scene.solver.hydrostatic_strain {
+        true => Pressures::of(line_type, environment, line.fairlead[2]).outer,
+        false => 0.0,
+    };
     let types = line.sections.iter().rev().filter_map(|section| scene.line_types.get(&section.line_type));
-    let pressures: Vec<f64> =
-        types.map(|of| if scene.solver.hydrostatic_strain { pressure(of, environment) } else { 0.0 }).collect();
+    let pressures: Vec<f64> = types.map(strained).collect();
     let elements = mesh.elements.iter().zip(&ground.resistance).map(|(element, resistance)| Element {
         length: element.length,
         properties: mesh.sections[element.section],
@@ -22,12 +26,6 @@ pub fn line(scene: &Scene, line: &Line, mesh: &Mesh, supports: Supports) -> Mixe
     });
     let current = Current::new(&environment.current);
     MixedLine::new(elements.collect(), (!current.is_still()).then_some(current), supports)
-}
-
-/// ρ g A_f of a line type [N/m].
-fn pressure(line_type: &LineType, environment: &Environment) -> f64 {
-    let (rho, g) = (environment.water_density, environment.gravity);
-    line_type.outer_area.map_or_else(|| line_type.buoyancy_per_length(rho, g), |area| rho * g * area)
 }
 
 /// What is in the step of a line and why.

@@ -482,8 +482,8 @@ impl Instance {
             scene.solver.tolerance = tolerance.clamp(1e-8, 0.1);
         }
         scene.lines.iter_mut().zip(ends).for_each(|(line, end)| line.fairlead = end.origin);
-        scene.motion = Motion::Fixed;
-        check::check(&scene, "parameters").map_err(|error| self.refusal(error))?;
+        // The scene's own motion says where the line will go, which the mesh is made for; the master may move it otherwise.
+        check::check(&Scene { motion: Motion::Fixed, ..scene.clone() }, "parameters").map_err(|error| self.refusal(error))?;
         let build = |(index, end): (usize, &End)| {
             let mut simulation = Simulation::new(&scene, index).map_err(|error| self.refusal(error))?;
             simulation.sum_up_work();

@@ -14,7 +14,7 @@ use crate::rod::bending::Bending;
 use crate::rod::element::{Batch, Ends, Motion, Property, Source, Table, Weights, with_curve};
 use crate::rod::morison::{self, PointMotion, Water};
 use crate::rod::stretch::{By, Direction, Stretch};
-use pulp::{Simd, WithSimd};
+use pulp::{NullaryFnOnce, Simd, WithSimd};
 use std::marker::PhantomData;
 
 /// Tangent of the loads at one point, already weighted: δX = load·δr + turning·δr′, δn = axial·δr′, δ(EI r″) = bending·δr″.
@@ -154,23 +154,23 @@ impl<S: Stretch, W: Water, B: Bending> WithSimd for Assembly<'_, S, W, B> {
                 }
             }
             let geometric = geometric.map(|_| &tensions);
-            let sum = batch_tangent::<Lanes<V>, S, W, B>(cpu, &source, e, weights, geometric);
+            let sum = batch_tangent::<V, S, W, B>(cpu, &source, e, weights, geometric);
             let length = Lanes::load(cpu, source.table[Property::Length as usize], e);
-            sum.add_to(matrix, e, length, count);
+            cpu.vectorize(Scatter { sum: &sum, matrix, first: e, length, count });
         }
     }
 }
 
 /// Tangent of the elements from `e` on.
 #[inline(always)]
-fn batch_tangent<F: Real, S: Stretch, W: Water, B: Bending>(
-    cpu: F::Cpu,
+fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending>(
+    cpu: V,
     source: &Source<W>,
     e: usize,
     weights: &Weights,
     geometric: Option<&[[f64; MOST_LANES]; 3]>,
-) -> ElementTangent<F> {
-    let table = Batch::<F> { cpu, rows: &source.table, e };
+) -> ElementTangent<Lanes<V>> {
+    let table = Batch::<Lanes<V>> { cpu, rows: &source.table, e };
     let (length, per_length, measure) =
         (table.get(Property::Length), table.get(Property::PerLength), table.get(Property::Measure));
     let (axial, coefficients) = (table.axial(), table.coefficients());
@@ -185,11 +185,11 @@ fn batch_tangent<F: Real, S: Stretch, W: Water, B: Bending>(
     for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {
         let direction = Direction::of(u.combine(&shape.slope) * per_length);
         let rate = v.combine(&shape.slope) * per_length;
-        let geometric = geometric.map(|tensions| F::load(cpu, &tensions[g], 0));
-        let curved = with_curve::<F, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
+        let geometric = geometric.map(|tensions| Lanes::load(cpu, &tensions[g], 0));
+        let curved = with_curve::<Lanes<V>, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
         let mut point = PointTangent {
             load: Tensor::isotropic(cpu, mass),
-            turning: Tensor::isotropic(cpu, F::splat(cpu, 0.0)),
+            turning: Tensor::isotropic(cpu, Lanes::splat(cpu, 0.0)),
             axial: S::tangent(cpu, &curved, &direction, rate, geometric, by),
             bending,
         };
@@ -205,7 +205,43 @@ fn batch_tangent<F: Real, S: Stretch, W: Water, B: Bending>(
             point.load = water.by_motion.mul_add(-wet, point.load);
             point.turning = water.by_slope.times(-wet);
         }
-        sum.add(shape, measure * gauss.weight, per_length, &point);
+        cpu.vectorize(Addition { sum: &mut sum, shape, measure: measure * gauss.weight, per_length, point: &point });
     }
     sum
+}
+
+/// `ElementTangent::add`, compiled once for a processor and not for every kind of line.
+struct Addition<'a, V: Simd> {
+    sum: &'a mut ElementTangent<Lanes<V>>,
+    shape: &'a Shape,
+    measure: Lanes<V>,
+    per_length: Lanes<V>,
+    point: &'a PointTangent<Lanes<V>>,
+}
+
+impl<V: Simd> NullaryFnOnce for Addition<'_, V> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.sum.add(self.shape, self.measure, self.per_length, self.point);
+    }
+}
+
+/// `ElementTangent::add_to`, likewise.
+struct Scatter<'a, V: Simd> {
+    sum: &'a ElementTangent<Lanes<V>>,
+    matrix: &'a mut BlockTridiagonal<6>,
+    first: usize,
+    length: Lanes<V>,
+    count: usize,
+}
+
+impl<V: Simd> NullaryFnOnce for Scatter<'_, V> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.sum.add_to(self.matrix, self.first, self.length, self.count);
+    }
 }

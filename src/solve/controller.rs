@@ -106,10 +106,10 @@ impl Controller {
             let wanted = demands.fixed_step.filter(|_| !halved).unwrap_or(moment.step.min(demands.max_step));
             let count = (remaining / wanted - 1e-6).ceil().max(1.0);
             let h = remaining / count;
-            // The way to the next output time rarely divides into the steps of the last one. A factor for nearly the same step would be kept,
-            // but converges more slowly than it did; judged by what it did, the iteration would end too soon.
+            // The way to the next output time rarely divides into the steps of the last one. A factor for nearly the same step is kept, but
+            // converges more slowly than it did; judged by what it did, the iteration would end too soon.
             if first && (h - self.tried).abs() > 1e-6 * h {
-                bench.newton.forget();
+                bench.newton.doubt();
             }
             (self.tried, first) = (h, false);
             let guarded = moment.guard > 0;

@@ -78,6 +78,27 @@ impl Path {
     }
 }
 
+impl Path {
+    /// Whether the fairlead stays within `slight` [m] of a place from one time to another.
+    pub fn rests(&self, from: f64, until: f64, place: &Vector3<f64>, slight: f64) -> bool {
+        let still = match self {
+            Path::Fixed(_) => true,
+            Path::Sinusoidal { offset, .. } => offset.sine.norm() + offset.cosine.norm() == 0.0,
+            Path::Table(table) => {
+                let first = table.times.partition_point(|t| *t <= from).saturating_sub(1);
+                let beyond = table.times.partition_point(|t| *t < until).min(table.times.len() - 1);
+                let at_rest = |row| table.velocities[row] == [0.0; 3] && table.positions[row] == table.positions[first];
+                (first..=beyond).all(at_rest)
+            }
+            Path::Polynomial { start, coefficients } => {
+                let (span, powers) = ((from - start).abs().max((until - start).abs()), coefficients.iter().enumerate().skip(1));
+                powers.map(|(power, c)| c.norm() * span.powi(power as i32)).sum::<f64>() <= slight
+            }
+        };
+        still && (self.at(until).position - place).norm() <= slight
+    }
+}
+
 impl Kinematics {
     /// At rest at a point.
     pub fn at_rest(position: Vector3<f64>) -> Kinematics {
@@ -103,6 +124,24 @@ fn interpolate(table: &Table, time: f64) -> Kinematics {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A table rests before its first row, between equal rows without velocity and after its last; a polynomial of degree 0 rests.
+    #[test]
+    fn a_path_knows_when_it_rests() {
+        let table = Table {
+            times: vec![1.0, 2.0, 3.0, 4.0],
+            positions: vec![[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+            velocities: vec![[0.0; 3], [0.0; 3], [0.0; 3], [0.1, 0.0, 0.0]],
+        };
+        let (path, here) = (Path::Table(Arc::new(table)), Vector3::x());
+        for (from, until, rests) in [(0.0, 0.5, true), (0.0, 1.5, true), (1.2, 2.0, true), (1.5, 2.1, false), (3.5, 4.0, false)] {
+            let place = path.at(until).position;
+            assert_eq!(path.rests(from, until, &place, 1e-9), rests, "{from} to {until}");
+        }
+        assert!(!path.rests(0.0, 0.5, &Vector3::zeros(), 1e-9), "it rests elsewhere");
+        let polynomial = |c: f64| Path::Polynomial { start: 5.0, coefficients: vec![here, Vector3::y() * c] };
+        assert!(polynomial(0.0).rests(5.0, 6.0, &here, 1e-9) && !polynomial(1e-8).rests(5.0, 6.0, &here, 1e-9));
+    }
 
     /// Velocity and acceleration of every kind of path are the differences of its position (step 1e-4 s, error of order 1e-8).
     #[test]

@@ -66,7 +66,10 @@ pub struct Newton {
     factor: Factor<COMPONENTS>,
     factored: Option<Weights>,
     rate: f64,
+    /// Whole steps failed where shortened ones did not: near a kink that the line keeps crossing.
+    rough: bool,
     increment: Field,
+    residual: Field,
     start: State,
     /// Work done so far.
     pub effort: Effort,
@@ -76,6 +79,8 @@ pub struct Newton {
 const STALE: f64 = 0.3;
 /// Damped iterations before giving up.
 const DAMPED: usize = 25;
+/// Damped iterations up to which the next stage is tried with whole steps again.
+const SMOOTH: usize = 4;
 /// Contraction beyond which the tangent is factored anew.
 const SLOW: f64 = 0.15;
 
@@ -88,7 +93,9 @@ impl Newton {
             factor: Factor::new(nodes),
             factored: None,
             rate: 1.0,
+            rough: false,
             increment: Field::new(nodes),
+            residual: Field::new(nodes),
             start: State::new(nodes),
             effort: Effort::default(),
         }
@@ -97,6 +104,12 @@ impl Newton {
     /// Forgets the factor, so that what follows depends on the state alone.
     pub fn forget(&mut self) {
         self.factored = None;
+        self.rate = 1.0;
+        self.rough = false;
+    }
+
+    /// Forgets how well the factor at hand served.
+    pub fn doubt(&mut self) {
         self.rate = 1.0;
     }
 
@@ -155,13 +168,17 @@ impl Newton {
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
     pub fn solve(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
-        self.start.copy_from(trial);
-        let quick = self.iterate(line, weights, trial, criteria);
-        if quick.is_ok() {
-            return quick;
+        if !self.rough {
+            self.start.copy_from(trial);
+            let quick = self.iterate(line, weights, trial, criteria);
+            if quick.is_ok() {
+                return quick;
+            }
+            trial.copy_from(&self.start);
         }
-        trial.copy_from(&self.start);
+        let begun = self.effort.iterations;
         let damped = self.iterate_damped(line, weights, trial, criteria);
+        self.rough = self.effort.iterations - begun > SMOOTH;
         if damped.is_err() {
             self.forget();
         }
@@ -212,9 +229,14 @@ impl Newton {
         criteria: &Criteria,
     ) -> Result<(), Stall> {
         self.rate = 1.0;
+        line.residual(&motion(trial), &mut self.residual);
         for _ in 0..DAMPED {
             self.factor(line, &motion(trial), weights, None)?;
-            self.find_increment(line, trial);
+            self.effort.iterations += 1;
+            let mut increment = std::mem::replace(&mut self.increment, Field::new(0));
+            increment.copy_from(&self.residual);
+            self.solve_linear(line, &mut increment);
+            self.increment = increment;
             let (size, node) = self.size(weights.u, criteria.length);
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node });
@@ -223,14 +245,15 @@ impl Newton {
                 self.apply(weights, -1.0, trial);
                 return Ok(());
             }
-            let mut residual = Field::new(trial.u.nodes());
             let mut taken = 0.0;
             search::share(|share| {
-                self.apply(weights, taken - share, trial);
-                taken = share;
-                line.residual(&motion(trial), &mut residual);
-                line.fixed().iter().for_each(|&(node, component)| residual.component_mut(component)[node] = 0.0);
-                -residual.dot(&self.increment)
+                if share != taken {
+                    self.apply(weights, taken - share, trial);
+                    taken = share;
+                    line.residual(&motion(trial), &mut self.residual);
+                }
+                // The increment of what is prescribed is zero.
+                -self.residual.dot(&self.increment)
             });
         }
         Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 })

@@ -19,6 +19,7 @@ use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
 use crate::solve::outputs;
 pub use crate::solve::outputs::{NodeOutput, Outputs};
+use crate::solve::rest;
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
 use crate::solve::start::{self, Bounds};
@@ -86,6 +87,8 @@ pub struct Simulation {
     work: f64,
     works: bool,
     fresh: bool,
+    /// The state is known to be at rest.
+    resting: bool,
     last: LastStep,
     /// The state before the last `advance`.
     before: Snapshot,
@@ -133,6 +136,10 @@ const CROSSING_SHARE: f64 = 0.1;
 const NEWTON_SHARE: f64 = 3.0e-3;
 /// And at most at this share of the displacement at which friction breaks away.
 const BREAKAWAY_SHARE: f64 = 0.05;
+/// A line is at rest where no tension along it can change by more than this share of the tolerance times the end tension.
+const REST_SHARE: f64 = 0.01;
+/// A fairlead that stays within this share of the line's length of a place rests there: rounding.
+const SLIGHT: f64 = 1.0e-14;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
 const MESH_SHARE: f64 = 0.3;
 /// How far `cable-1994` may leave the path of its fairlead, as a share of the line's length: it prescribes the velocity and adds it up.
@@ -203,7 +210,11 @@ impl Simulation {
             (Mixed::new(line, step), setup::decisions(scene, &mesh, step))
         });
         let (mixed, report) = mixed.unzip();
-        let decisions = report.unwrap_or_else(|| physics::decisions(scene, &mesh, &supports));
+        let decisions = report.unwrap_or_else(|| {
+            let mut decisions = physics::decisions(scene, &mesh, &supports);
+            decisions.push(rest::decision(scene, &supports));
+            decisions
+        });
         let (nodes, length) = (mesh.nodes(), mesh.length);
         let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
         let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
@@ -238,6 +249,7 @@ impl Simulation {
             work: 0.0,
             works: false,
             fresh: true,
+            resting: false,
             last: LastStep::default(),
             before: Snapshot::new(nodes),
             forces: Vec::new(),
@@ -337,16 +349,21 @@ impl Simulation {
         self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * tension_length;
         self.newton.forget();
         self.newton.effort = Effort::default();
-        (self.work, self.fresh, self.last) = (0.0, true, LastStep::default());
+        (self.work, self.fresh, self.resting, self.last) = (0.0, true, false, LastStep::default());
     }
 
-    /// Advances to a time with the fairlead on a path. On an error the state is the one before the call.
+    /// Advances to a time with the fairlead on a path. On an error the state is the one before the call. A line at rest whose
+    /// fairlead stays where it is takes no steps.
     pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
         self.check_path(until, path)?;
         self.before.moment.copy_from(&self.moment);
         (self.before.work, self.before.fresh, self.before.last) = (self.work, self.fresh, self.last);
         if let Some(mixed) = &self.mixed {
             self.before.tensions.clone_from(mixed.tensions());
+        }
+        if self.rests(until, path) {
+            (self.moment.state.clock.now, self.last) = (until, LastStep::default());
+            return Ok(());
         }
         let effort = self.newton.effort;
         let steps = self.controller.tally.steps;
@@ -381,6 +398,24 @@ impl Simulation {
             mixed.restore(&self.before.tensions);
         }
         self.newton.forget();
+        self.resting = false;
+    }
+
+    /// Whether nothing would happen before `until`. Depends on the state and the path alone, so that it is the same after a rollback.
+    fn rests(&mut self, until: f64, path: &Path) -> bool {
+        let (line, state) = (self.line.as_ref(), &self.moment.state);
+        let (last, slight) = (line.last(), SLIGHT * line.mesh().length);
+        let still = self.demands.fixed_step.is_none()
+            && self.surroundings.waves.is_none()
+            && self.supports.holds.is_empty()
+            && (self.fresh || state.v.position(last) == Vector3::zeros() && state.a.position(last) == Vector3::zeros())
+            && path.rests(state.clock.now, until, &state.u.position(last), slight);
+        if still && !self.resting {
+            let allowed = REST_SHARE * self.tolerance * line.end_force(&motion(state)).norm();
+            self.resting = rest::rests(line, &mut self.newton, state, allowed);
+        }
+        self.resting &= still;
+        self.resting
     }
 
     fn run(&mut self, until: f64, path: &Path) -> Result<(), Failure> {
@@ -530,7 +565,7 @@ impl Simulation {
         self.newton.forget();
         self.moment.copy_from(&snapshot.moment);
         self.demands.error = snapshot.error;
-        (self.work, self.fresh, self.last) = (snapshot.work, snapshot.fresh, snapshot.last);
+        (self.work, self.fresh, self.resting, self.last) = (snapshot.work, snapshot.fresh, false, snapshot.last);
         true
     }
 

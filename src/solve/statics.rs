@@ -9,6 +9,7 @@ use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::newton::{Newton, motion};
+use crate::solve::relaxation::Relaxation;
 use crate::solve::search;
 
 /// How an attempt ended.
@@ -55,9 +56,17 @@ pub fn settle(line: &dyn Line, soften: &dyn Fn(f64) -> Box<dyn Line>, newton: &m
     }
     let mut best = (direct, state.u.clone());
     let mut iterations = direct.iterations;
-    for ladder in LADDERS {
-        state.u.copy_from(&start);
-        let reached = walk.climb(line, soften, newton, state, &ladder, &mut iterations);
+    for fallback in FALLBACKS {
+        let reached = match &fallback {
+            Fallback::Relax => {
+                state.u.copy_from(&best.1);
+                walk.relax(line, newton, state, &mut iterations)
+            }
+            Fallback::Climb(ladder) => {
+                state.u.copy_from(&start);
+                walk.climb(line, soften, newton, state, ladder, &mut iterations)
+            }
+        };
         if reached.judged().converged() {
             return Balance { iterations, ..reached.judged() };
         }
@@ -81,10 +90,23 @@ struct Ladder {
     inertia: f64,
 }
 
-const LADDERS: [Ladder; 2] = [
-    Ladder { softest: 10.0, ratio: 10.0, iterations: [60, 400], inertia: 1.0 },
-    Ladder { softest: 3.0, ratio: 3.0, iterations: [80, 600], inertia: 30.0 },
+/// What is tried where Newton's method alone does not reach equilibrium.
+enum Fallback {
+    /// Motion without swing, from the best state so far.
+    Relax,
+    /// A softened line first.
+    Climb(Ladder),
+}
+
+const FALLBACKS: [Fallback; 3] = [
+    Fallback::Climb(Ladder { softest: 10.0, ratio: 10.0, iterations: [60, 400], inertia: 1.0 }),
+    Fallback::Relax,
+    Fallback::Climb(Ladder { softest: 3.0, ratio: 3.0, iterations: [80, 600], inertia: 30.0 }),
 ];
+/// Newton iterations of a relaxation.
+const RELAXING: usize = 600;
+/// First step of a relaxation, as a share of √(mass · length / weight).
+const FIRST_STEP: f64 = 0.1;
 
 /// One way to walk to equilibrium.
 struct Attempt {
@@ -138,10 +160,23 @@ impl Walk {
         balance
     }
 
+    /// Lets the line sink to rest.
+    fn relax(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, iterations: &mut usize) -> Balance {
+        let attempt = Attempt { iterations: 0, inertia: 0.0, mixed: false, allowed: AIMED };
+        let mut relaxation = Relaxation::new(line, FIRST_STEP / unit_of_inertia(line).sqrt());
+        let mut balance = self.balance(line, state, &attempt);
+        let before = newton.effort.iterations;
+        let spent = |newton: &Newton| newton.effort.iterations - before;
+        while !balance.converged() && spent(newton) < RELAXING && relaxation.step(line, newton, state) {
+            balance = self.balance(line, state, &attempt);
+        }
+        *iterations += spent(newton);
+        balance
+    }
+
     fn run(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
         let mesh = line.mesh();
-        let mass: f64 = mesh.elements.iter().map(|e| e.length * mesh.sections[e.section].mass).sum();
-        let unit = mesh.total_weight().max(mass) / (mass * mesh.length);
+        let unit = unit_of_inertia(line);
         let mut mu = attempt.inertia * unit;
         line.tensions(&state.u, &state.v, &mut self.tension);
         let mut balance = self.balance(line, state, attempt);
@@ -210,6 +245,13 @@ impl Walk {
         let allowed = attempt.allowed * (line.mesh().total_weight() + line.burden()).max(end_tension).max(f64::MIN_POSITIVE);
         Balance { iterations: 0, residual, allowed, node }
     }
+}
+
+/// Unit of μ: weight / (mass · length) [1/s²].
+fn unit_of_inertia(line: &dyn Line) -> f64 {
+    let mesh = line.mesh();
+    let mass: f64 = mesh.elements.iter().map(|e| e.length * mesh.sections[e.section].mass).sum();
+    mesh.total_weight().max(mass) / (mass * mesh.length)
 }
 
 /// Largest unbalanced force; moments on slopes count as forces at the length of the element beside them.

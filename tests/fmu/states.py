@@ -60,6 +60,20 @@ assert status == OK and line.set_state(again) == OK
 assert line.serialize(again) == data, "bytes change on the way"
 assert go_on(line, begin) == first, "after serialization the steps differ"
 
+# The report's own scheme keeps its tensions, too.
+report = Line(fmu)
+assert report.set_integer({"solver.scheme": 4}) == OK
+report.start(surge)
+for _ in range(40):
+    assert report.step(surge) == OK, report.log
+begin_report = report.time
+status, there = report.get_state()
+assert status == OK
+status, there_again = report.deserialize(report.serialize(there))
+assert status == OK
+first_report = go_on(report, begin_report)
+assert report.set_state(there_again) == OK and go_on(report, begin_report) == first_report, "cable-1994 goes back differently"
+
 # A handle that is used again holds the new state.
 assert line.set_state(state) == OK
 line.time = begin

@@ -344,6 +344,10 @@ impl Losses {
                 format!("{}: {} becomes 0", at("added_mass.tangential"), of.added_mass.tangential)
             });
             self.add(of.tension_strain.is_some(), || format!("{}: the table is replaced by `ea`", at("tension_strain")));
+            let pressed = of.inner_fluid.as_ref().is_some_and(|fluid| fluid.pressure != 0.0);
+            self.add(pressed, || {
+                format!("{}: the fluid inside has the pressure of the water outside", at("inner_fluid.pressure"))
+            });
             self.add(of.breaking_load.is_some(), || format!("{}: it is left out", at("breaking_load")));
             for (key, own, other) in [
                 ("drag.normal", of.drag.normal, first.map(|first| first.drag.normal)),
