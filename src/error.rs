@@ -71,16 +71,6 @@ pub enum Error {
     /// A line is too short for the distance of its ends.
     #[error(transparent)]
     Reach(Box<Reach>),
-    /// The scene asks for something that this version does not support.
-    #[error("{file}, {place}: this version of moorline does not support {feature}")]
-    Unsupported {
-        /// The file.
-        file: String,
-        /// Place in the scene.
-        place: String,
-        /// What was asked for, and what to do without it.
-        feature: String,
-    },
     /// No static equilibrium was found.
     #[error(transparent)]
     Statics(Box<Unbalanced>),
@@ -104,8 +94,7 @@ impl Error {
             | Error::Deck { .. }
             | Error::Set { .. }
             | Error::Value { .. }
-            | Error::Reach(_)
-            | Error::Unsupported { .. } => 2,
+            | Error::Reach(_) => 2,
             Error::Statics(_) | Error::Step(_) => 3,
             Error::Interrupted { .. } => 130,
         }

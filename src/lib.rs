@@ -50,6 +50,7 @@ pub mod rod {
     pub mod elasticity;
     pub mod element;
     pub mod element_tangent;
+    pub mod friction;
     pub mod grading;
     pub mod hold;
     pub mod joint;

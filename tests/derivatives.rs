@@ -6,12 +6,13 @@ use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::algebra::sinusoid::Sinusoid;
 use moorline::rod::body::Body;
 use moorline::rod::element::{Motion, Weights};
+use moorline::rod::friction::Friction;
 use moorline::rod::hold::{self, Hold};
 use moorline::rod::line::{Line, Supports};
 use moorline::rod::mesh::{Mesh, Part, Properties};
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::seabed::{Plane, Resistance};
-use moorline::rod::state::{Field, State};
+use moorline::rod::state::{COMPONENTS, Field, State};
 use moorline::rod::touching::{Ground, Surface};
 use moorline::scene::read;
 use moorline::scene::types::{CurrentPoint, Stretch};
@@ -79,16 +80,18 @@ struct Physics {
 struct Bed {
     damping: f64,
     tilt: f64,
+    friction: f64,
 }
 
-const FLAT_DAMPED: Bed = Bed { damping: 100.0, tilt: 0.0 };
+const FLAT_DAMPED: Bed = Bed { damping: 100.0, tilt: 0.0, friction: 0.0 };
 
-const BEDS: [Option<Bed>; 5] = [
+const BEDS: [Option<Bed>; 6] = [
     None,
     Some(FLAT_DAMPED),
-    Some(Bed { damping: 0.0, tilt: 0.0 }),
-    Some(Bed { damping: 0.0, tilt: 0.3 }),
-    Some(Bed { damping: 200.0, tilt: 0.3 }),
+    Some(Bed { damping: 0.0, tilt: 0.0, friction: 0.0 }),
+    Some(Bed { damping: 0.0, tilt: 0.3, friction: 0.0 }),
+    Some(Bed { damping: 200.0, tilt: 0.3, friction: 0.0 }),
+    Some(Bed { damping: 0.0, tilt: 0.3, friction: 0.6 }),
 ];
 
 /// All combinations without waves.
@@ -149,7 +152,9 @@ fn line_of(physics: &Physics) -> Box<dyn Line> {
         ground: physics.bed.map(|bed| {
             let normal = Vector3::new(-bed.tilt, 0.5 * bed.tilt, 1.0).normalize();
             let resistance = Resistance { stiffness: 900.0, damping: bed.damping, onset: 0.3, easing: 0.4 };
-            Ground { plane: Plane { normal, offset: -0.9 }, resistance: vec![resistance; mesh.elements.len()] }
+            let plane = Plane { normal, offset: -0.9 };
+            let friction = (bed.friction > 0.0).then(|| Friction::new(bed.friction, &plane, &mesh));
+            Ground { plane, resistance: vec![resistance; mesh.elements.len()], friction }
         }),
         surface: physics.surface.then(|| Surface::new(&mesh)),
     };
@@ -184,12 +189,18 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
         state.v.set_position(node, &(state.v.position(node) + velocity));
         state.a.set_position(node, &(state.a.position(node) + acceleration));
     }
+    // Places to hold on to as if half of the line had just moved by up to some breakaway distances.
+    state.holds = Field::new(line.holding_nodes());
+    line.hold(&state.u, &state.v, &mut state.holds);
+    for c in 0..if line.holding_nodes() > 0 { COMPONENTS } else { 0 } {
+        state.holds.component_mut(c).iter_mut().for_each(|hold| *hold += 0.1 * random.next());
+    }
     state
 }
 
 fn residual(line: &dyn Line, state: &State) -> Field {
     let mut out = Field::new(line.mesh().nodes());
-    line.residual(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a }, &mut out);
+    line.residual(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }, &mut out);
     out
 }
 
@@ -201,7 +212,12 @@ fn error(line: &dyn Line, state: &State, weights: &Weights, random: &mut Random,
 
 fn error_along(line: &dyn Line, state: &State, weights: &Weights, direction: &Field, d: f64) -> f64 {
     let mut matrix = BlockTridiagonal::new(line.mesh().ties());
-    line.tangent(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a }, weights, None, &mut matrix);
+    line.tangent(
+        &Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds },
+        weights,
+        None,
+        &mut matrix,
+    );
     let product = times(&matrix, direction);
     let moved = |sign: f64| {
         let mut moved = state.clone();
@@ -380,7 +396,7 @@ fn tangent_of_bodies_and_holds_is_the_change_of_the_residual() {
             worst = worst.max(error);
         }
         let mut newton = Newton::new(line.as_ref());
-        let at = Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a };
+        let at = Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds };
         newton.factor(line.as_ref(), &at, &Weights { u: 1.0, v: 0.0, a: 50.0 }, None).expect("regular");
         let mut step = residual(line.as_ref(), &state);
         newton.solve_linear(line.as_ref(), &mut step);

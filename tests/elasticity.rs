@@ -111,10 +111,13 @@ fn tangent_of_a_table_is_the_change_of_the_residual() {
         }
         let residual = |state: &State| {
             let mut out = state.u.clone();
-            line.residual(&Motion { clock: Clock::default(), u: &state.u, v: &state.v, a: &state.a }, &mut out);
+            line.residual(
+                &Motion { clock: Clock::default(), u: &state.u, v: &state.v, a: &state.a, holds: &state.holds },
+                &mut out,
+            );
             out
         };
-        let at = Motion { clock: Clock::default(), u: &state.u, v: &state.v, a: &state.a };
+        let at = Motion { clock: Clock::default(), u: &state.u, v: &state.v, a: &state.a, holds: &state.holds };
         let mut matrix = BlockTridiagonal::new(line.mesh().ties());
         line.tangent(&at, &Weights { u: 1.0, v: 0.0, a: 0.0 }, None, &mut matrix);
         let x: Vec<SVector<f64, 6>> = (0..4).map(|node| SVector::from_fn(|c, _| ((node * 7 + c * 3) % 5) as f64 - 2.0)).collect();

@@ -219,8 +219,6 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         r#""depth": 120.0, "waves": {"kind": "regular", "amplitud": 2.0, "period": 10.0},"#,
         &["line 6", "environment.waves.amplitud", "did you mean `amplitude`"],
     ),
-    // What is not there yet.
-    ("5075.2591}", r#"5075.2591, "friction": 0.5}"#, &["environment.seabed.friction", "does not support friction"]),
     (
         r#""damping": 4.0e-4"#,
         r#""tension_strain": [[0, 0], [0.02, 1e6], [0.01, 2e6]]"#,

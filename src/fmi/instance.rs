@@ -398,9 +398,6 @@ impl Instance {
                 let (name, allowed) = (self.interface.variable_at(&place), self.interface.in_own_words(allowed));
                 Refusal::Parameter { name, value, allowed }
             }
-            Error::Unsupported { place, feature, .. } => {
-                Refusal::Unsupported { name: self.interface.variable_at(&place), feature }
-            }
             Error::Reach(ref reach) => {
                 let index = (0..self.interface.lines()).find(|line| reach.place == format!("lines[{line}]")).unwrap_or(0);
                 Refusal::Reach { line: self.interface.prefix(index), error }

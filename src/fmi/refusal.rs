@@ -153,14 +153,6 @@ pub enum Refusal {
         /// What is allowed.
         allowed: String,
     },
-    /// A parameter asks for physics that is not there yet.
-    #[error("{name}: this version of moorline does not support {feature}")]
-    Unsupported {
-        /// The variable.
-        name: String,
-        /// What was asked for, and what to do without it.
-        feature: String,
-    },
     /// The solver claims success with a result that is no number.
     #[error(
         "{line}tension: the step to t = {until:?} s gave a result that is not a number; go back with fmi2SetFMUstate or fmi2Reset"

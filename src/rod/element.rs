@@ -34,6 +34,8 @@ pub struct Motion<'a> {
     pub v: &'a Field,
     /// Their second rates.
     pub a: &'a Field,
+    /// Places of the bed to which the line holds on by friction.
+    pub holds: &'a Field,
 }
 
 /// Weights of the tangent: c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a.
@@ -232,6 +234,11 @@ impl Ends<f64> {
     pub fn gather(field: &Field, e: usize, length: f64) -> Ends<f64> {
         let (at, slope) = (|node| Triple::from(field.position(node)), |node| Triple::from(field.slope(node)) * length);
         Ends { a: at(e), da: slope(e), b: at(e + 1), db: slope(e + 1) }
+    }
+
+    /// Component along a vector as a cubic.
+    pub fn along(&self, direction: &Vector3<f64>) -> Cubic {
+        Cubic(self.control_values(direction))
     }
 
     /// Height (third component) as a cubic.

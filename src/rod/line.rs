@@ -54,6 +54,12 @@ pub trait Line: Send + Sync {
     fn grounded_length(&self, u: &Field) -> f64 {
         (0..self.mesh().elements.len()).map(|e| self.touching_length(u, e)).sum()
     }
+    /// Nodes of the field of places to which the line holds on by friction; 0 without friction.
+    fn holding_nodes(&self) -> usize;
+    /// Places of the bed to which a line holds on that was laid slack, from its anchor on, to where it lies now, and then stretched.
+    fn lay(&self, u: &Field, holds: &mut Field);
+    /// Moves the places of the bed to which the line holds on after a step to these positions and velocities.
+    fn hold(&self, u: &Field, v: &Field, holds: &mut Field);
     /// Number of the last node, the fairlead.
     fn last(&self) -> usize {
         self.mesh().elements.len()
@@ -92,7 +98,7 @@ impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
         let table = Table::new(&mesh, surface.as_ref().map(|_| water.lowest_surface()));
-        let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance));
+        let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance, ground.friction.is_some()));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
         Rod { mesh, table, water, ground, bed, surface, joints, stiff_joints, supports, laws: PhantomData }
@@ -240,6 +246,23 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
 
     fn end_force(&self, at: &Motion) -> Vector3<f64> {
         (-self.element_forces(at, self.table.len() - 1)[2]).into()
+    }
+
+    fn holding_nodes(&self) -> usize {
+        let rough = self.ground.as_ref().is_some_and(|ground| ground.friction.is_some());
+        if rough { self.mesh.nodes() } else { 0 }
+    }
+
+    fn lay(&self, u: &Field, holds: &mut Field) {
+        if let Some(ground) = &self.ground {
+            ground.lay(&self.table, u, holds);
+        }
+    }
+
+    fn hold(&self, u: &Field, v: &Field, holds: &mut Field) {
+        if let Some(ground) = &self.ground {
+            ground.hold(&self.table, u, v, holds);
+        }
     }
 
     fn touching_length(&self, u: &Field, e: usize) -> f64 {

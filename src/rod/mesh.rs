@@ -108,6 +108,11 @@ impl Properties {
         if self.ei > 0.0 { f64::NEG_INFINITY } else { 0.0 }
     }
 
+    /// Weight that the bed carries [N/m]: in water, or in air of what does not sink.
+    pub fn sinking_weight(&self) -> f64 {
+        if self.weight > 0.0 { self.weight } else { self.weight_in_air }
+    }
+
     /// Weight in air [N/m] of a line that can go slack, else zero.
     pub fn slack_weight(&self) -> f64 {
         if self.ei > 0.0 { 0.0 } else { self.weight_in_air }

@@ -7,6 +7,7 @@ use crate::algebra::sinusoid::Sinusoid;
 use crate::rod::bending::{Bending, Flexible, Stiff};
 use crate::rod::body::Body;
 use crate::rod::elasticity::{Elasticity, Hooke, Tabulated};
+use crate::rod::friction::Friction;
 use crate::rod::hold::{self, Hold};
 use crate::rod::line::{Line, Rod, Supports};
 use crate::rod::mesh::Mesh;
@@ -55,6 +56,24 @@ impl Surroundings {
             ground: Some(ground(&scene.environment, mesh)),
             surface: (scene.environment.surface == types::Surface::Pierced).then(|| Surface::new(mesh)),
         }
+    }
+}
+
+impl Surroundings {
+    /// The same without friction.
+    pub fn without_friction(&self) -> Surroundings {
+        Surroundings { ground: self.ground.clone().map(|ground| Ground { friction: None, ..ground }), ..self.clone() }
+    }
+
+    /// Displacement at which friction breaks away [m], where there is any.
+    pub fn breakaway(&self) -> Option<f64> {
+        Some(self.ground.as_ref()?.friction.as_ref()?.breakaway())
+    }
+
+    /// The same with the friction of statics on a mesh.
+    pub fn laid(&self, mesh: &Mesh) -> Surroundings {
+        let laid = |ground: Ground| Ground { friction: ground.friction.map(|friction| friction.laid(mesh)), ..ground };
+        Surroundings { ground: self.ground.clone().map(laid), ..self.clone() }
     }
 }
 
@@ -171,13 +190,14 @@ pub fn ground(environment: &Environment, mesh: &Mesh) -> Ground {
     let plane = Plane::of(environment);
     let resistance = (0..mesh.elements.len()).map(|e| {
         let properties = mesh.properties_of(e);
-        let sinking = if properties.weight > 0.0 { properties.weight } else { properties.weight_in_air };
         let given = properties.seabed_stiffness.or(environment.seabed.stiffness);
-        let stiffness = given.unwrap_or(sinking / properties.diameter);
+        let stiffness = given.unwrap_or(properties.sinking_weight() / properties.diameter);
         let onset = properties.weight.max(0.0) * plane.normal.z / stiffness;
         Resistance { stiffness, damping: environment.seabed.damping, onset, easing: onset.max(0.1 * properties.diameter) }
     });
-    Ground { plane, resistance: resistance.collect() }
+    let resistance = resistance.collect();
+    let coefficient = environment.seabed.friction;
+    Ground { plane, resistance, friction: (coefficient > 0.0).then(|| Friction::new(coefficient, &plane, mesh)) }
 }
 
 /// What is in the step of a line and why.
@@ -227,6 +247,12 @@ pub fn decisions(scene: &Scene, mesh: &Mesh, supports: &Supports) -> Vec<Decisio
         },
         decide("seabed", true, "elements that touch it pay for it, others only for a look at their height", ""),
         decide("seabed damping", scene.environment.seabed.damping > 0.0, "seabed.damping > 0", "seabed.damping is 0"),
+        decide(
+            "seabed friction",
+            scene.environment.seabed.friction > 0.0,
+            "seabed.friction > 0: elements that touch pay for it",
+            "seabed.friction is 0",
+        ),
         decide("water surface", pierced, "surface is pierced: elements that rise above it pay for it", "surface is none"),
         decide(
             "bodies on the line",

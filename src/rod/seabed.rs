@@ -7,8 +7,8 @@
 //! N unit normal of the bed, upwards; g height above it [m]; v_n = N·ṙ [m/s]; k stiffness [Pa]; c damping [Pa·s]; f force on
 //! the line per unstretched length [N/m]. Contact starts δ_0 = w N_z / k above the bed, so that a line at rest lies exactly on
 //! it; δ = max(δ_0, d/10) eases the damper in. On an element g is a cubic, so its touching part is found exactly and integrated
-//! with four Gauss points, which are exact for the spring. Where the bed has no damping and an element touches all along, the
-//! push on its ends is linear in p there:
+//! with four Gauss points, which are exact for the spring. Where the bed has neither damping nor friction and an element touches all
+//! along, the push on its ends is linear in p there:
 //!
 //! ```text
 //! R = -k L M p N,   M_ij = ∫ N_i N_j dx
@@ -113,25 +113,26 @@ pub fn grounded_tangent(stiffness: f64, length: f64) -> [[f64; 4]; 4] {
 #[derive(Debug, Clone)]
 pub struct Bed {
     plane: Plane,
-    damped: bool,
+    /// Whether there is more to touching than the spring.
+    dissipative: bool,
     onset: Vec<f64>,
     stiffness: Vec<f64>,
 }
 
 impl Bed {
-    /// A plane that resists each element.
-    pub fn new(plane: Plane, resistance: &[Resistance]) -> Bed {
+    /// A plane that resists each element, with or without friction.
+    pub fn new(plane: Plane, resistance: &[Resistance], friction: bool) -> Bed {
         let row = |property: fn(&Resistance) -> f64| {
             let mut row = vec![0.0; padded(resistance.len() + 1) + MOST_LANES];
             row.iter_mut().zip(resistance).for_each(|(to, resistance)| *to = property(resistance));
             row
         };
-        let damped = resistance.iter().any(|resistance| resistance.damping != 0.0);
-        Bed { plane, damped, onset: row(|r| r.onset), stiffness: row(|r| r.stiffness) }
+        let dissipative = friction || resistance.iter().any(|resistance| resistance.damping != 0.0);
+        Bed { plane, dissipative, onset: row(|r| r.onset), stiffness: row(|r| r.stiffness) }
     }
 
-    /// Adds the push on those elements from `e` on that touch an undamped bed all along; returns a number that is positive for
-    /// those that may touch otherwise.
+    /// Adds the push on those elements from `e` on that touch a merely springy bed all along; returns a number that is positive
+    /// for those that may touch otherwise.
     #[inline(always)]
     pub fn add_grounded<F: Real>(&self, cpu: F::Cpu, u: &Ends<F>, measure: F, e: usize, sum: &mut [Triple<F>; 4]) -> F {
         let normal = &self.plane.normal;
@@ -140,7 +141,7 @@ impl Bed {
         let control = u.control_values(normal).map(|g| level - g);
         let most = control[0].max(control[1]).max(control[2].max(control[3]));
         let least = control[0].min(control[1]).min(control[2].min(control[3]));
-        if self.damped {
+        if self.dissipative {
             return most * measure;
         }
         if most.any_positive() {

@@ -123,9 +123,10 @@ impl Field {
         self.data.iter().zip(&x.data).map(|(a, b)| a * b).sum()
     }
 
-    /// Copies all numbers of a field of the same size.
+    /// Becomes the same as another field, without allocation if it is not larger.
     pub fn copy_from(&mut self, x: &Field) {
-        self.data.copy_from_slice(&x.data);
+        (self.nodes, self.stride) = (x.nodes, x.stride);
+        self.data.clone_from(&x.data);
     }
 
     /// Sets all numbers but the padding.
@@ -134,7 +135,7 @@ impl Field {
     }
 }
 
-/// Unknowns u, their rates v = du/dt and a = dv/dt, and when they are so.
+/// Unknowns u, their rates v = du/dt and a = dv/dt, when they are so, and what friction remembers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// When.
@@ -145,12 +146,16 @@ pub struct State {
     pub v: Field,
     /// Accelerations.
     pub a: Field,
+    /// Places of the bed to which the line holds on by friction [m]: for element e, at e, two coordinates of each of its three Gauss
+    /// points. Empty without friction.
+    pub holds: Field,
 }
 
 impl State {
-    /// A line of `nodes` nodes, all zero, at time zero.
+    /// A line of `nodes` nodes without friction, all zero, at time zero.
     pub fn new(nodes: usize) -> State {
-        State { clock: Clock::default(), u: Field::new(nodes), v: Field::new(nodes), a: Field::new(nodes) }
+        let zero = || Field::new(nodes);
+        State { clock: Clock::default(), u: zero(), v: zero(), a: zero(), holds: Field::new(0) }
     }
 
     /// Copies the state of a line with as many nodes, without allocation.
@@ -159,6 +164,7 @@ impl State {
         self.u.copy_from(&from.u);
         self.v.copy_from(&from.v);
         self.a.copy_from(&from.a);
+        self.holds.copy_from(&from.holds);
     }
 }
 

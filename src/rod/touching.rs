@@ -5,9 +5,10 @@
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
 use crate::algebra::polynomial::{Cubic, Interval};
-use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, Shape};
+use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, SHAPES3, Shape};
 use crate::rod::element::{Ends, Motion, Table, Weights};
 use crate::rod::element_tangent::{ElementTangent, PointTangent};
+use crate::rod::friction::{Contact, Friction};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::seabed::{self, Plane, Resistance, projector};
@@ -15,15 +16,17 @@ use crate::rod::state::Field;
 use crate::rod::stretch::Direction;
 use crate::rod::surface;
 use crate::sea::clock::Clock;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
-/// The bed under a line: its plane and its resistance against each element.
+/// The bed under a line: its plane, its resistance against each element, and its friction.
 #[derive(Debug, Clone)]
 pub struct Ground {
     /// The plane.
     pub plane: Plane,
     /// One resistance per element.
     pub resistance: Vec<Resistance>,
+    /// Friction, where there is any.
+    pub friction: Option<Friction>,
 }
 
 /// Adds `force`(point) over an interval of element `e`: R_k += Σ w N_k f, points and weights of a rule on [0, 1].
@@ -71,7 +74,69 @@ impl Ground {
             };
             integrate(&GAUSS4, part, length, push, &mut sum);
         }
+        if let Some(friction) = &self.friction {
+            let rates = v.along(normal);
+            for g in 0..3 {
+                let contact = self.contact(&u, &profile, &rates, (e, g), at.holds);
+                let force = friction.force(e, &contact) * -(GAUSS3[g].weight * length);
+                (0..4).for_each(|k| sum[k] = Triple::from(force).scale_add(SHAPES3[g].value[k], sum[k]));
+            }
+        }
         Some(sum)
+    }
+
+    /// Part `g` of element `e` and the place of the bed to which it holds on.
+    fn contact(&self, u: &Ends<f64>, profile: &Cubic, rates: &Cubic, (e, g): (usize, usize), holds: &Field) -> Contact {
+        let resistance = &self.resistance[e];
+        let push: f64 = resistance
+            .touching(profile)
+            .iter()
+            .flat_map(|part| points_on(part, g))
+            .map(|point| point.weight * resistance.push(profile.at(point.x), rates.at(point.x)))
+            .sum();
+        Contact {
+            position: u.combine(&SHAPES3[g].value).into(),
+            push: push / GAUSS3[g].weight,
+            hold: Vector2::new(holds.component(2 * g)[e], holds.component(2 * g + 1)[e]),
+        }
+    }
+
+    /// Places of the bed to which a line holds on that was laid slack, from its anchor on, to where it lies now, and then stretched.
+    pub fn lay(&self, table: &Table, u: &Field, holds: &mut Field) {
+        let Some(friction) = &self.friction else { return };
+        let (mut stretched, mut landed) = (0.0, false);
+        for e in (0..table.len()).filter(|e| !table.is_joint(*e)) {
+            let length = table.length_of(e);
+            let ends = Ends::gather(u, e, length);
+            landed |= self.resistance[e].touching(&self.profile(&ends)).length() > 0.0;
+            let direction = |g: usize| Direction::of(ends.combine(&SHAPES3[g].slope) * (1.0 / length));
+            let strain = |g: usize| if landed { (direction(g).stretch - 1.0).max(0.0) } else { 0.0 };
+            // Elongation up to each point, with the strain of a point halfway to its neighbours.
+            let mut before = 0.0;
+            for g in 0..3 {
+                let span = 0.5 * (GAUSS3[g].x - before) * length;
+                stretched += span * (strain(g.max(1) - 1) + strain(g));
+                before = GAUSS3[g].x;
+                let unstretched = ends.combine(&SHAPES3[g].value) - direction(g).tangent * stretched;
+                let hold = friction.along(&unstretched.into());
+                (0..2).for_each(|c| holds.component_mut(2 * g + c)[e] = hold[c]);
+            }
+            stretched += (1.0 - before) * length * strain(2);
+        }
+    }
+
+    /// Moves the places of the bed to which the line holds on after a step to these positions and velocities.
+    pub fn hold(&self, table: &Table, u: &Field, v: &Field, holds: &mut Field) {
+        let Some(friction) = &self.friction else { return };
+        for e in (0..table.len()).filter(|e| !table.is_joint(*e)) {
+            let length = table.length_of(e);
+            let (u, v) = (Ends::gather(u, e, length), Ends::gather(v, e, length));
+            let (profile, rates) = (self.profile(&u), v.along(&self.plane.normal));
+            for g in 0..3 {
+                let hold = friction.hold(e, &self.contact(&u, &profile, &rates, (e, g), holds));
+                (0..2).for_each(|c| holds.component_mut(2 * g + c)[e] = hold[c]);
+            }
+        }
     }
 
     /// Adds the tangent of the push on element `e` to the matrix.
@@ -99,6 +164,26 @@ impl Ground {
         }
         let mut sum = ElementTangent::zero(());
         sum.add_products(&products, &projector(normal).into());
+        if let Some(friction) = &self.friction {
+            let rates = v.along(normal);
+            for g in 0..3 {
+                let contact = self.contact(&u, &profile, &rates, (e, g), at.holds);
+                if contact.push > 0.0 {
+                    let (change, measure) = (friction.tangent(e, &contact), GAUSS3[g].weight * length);
+                    let shape = SHAPES3[g].scaled(length);
+                    let point = PointTangent::of_load((-change.by_position * weights.u).into());
+                    sum.add(&shape, measure, 1.0, &point);
+                    let mut products = [[0.0; 4]; 4];
+                    for point in resistance.touching(&profile).iter().flat_map(|part| points_on(part, g)) {
+                        let (by_position, by_rate) = resistance.tangent(profile.at(point.x), rates.at(point.x));
+                        let scale = -(by_position * weights.u + by_rate * weights.v) * point.weight * length;
+                        let value = Shape::at(point.x).scaled(length).value;
+                        (0..4).for_each(|k| (0..4).for_each(|l| products[k][l] += scale * shape.value[k] * value[l]));
+                    }
+                    sum.add_products(&products, &(change.by_push * normal.transpose()).into());
+                }
+            }
+        }
         sum.add_to(matrix, e, 1.0, e + 1);
     }
 
@@ -106,6 +191,16 @@ impl Ground {
     pub fn touching_length(&self, table: &Table, u: &Field, e: usize) -> f64 {
         self.near(table, u, e).map_or(0.0, |(_, profile)| self.resistance[e].touching(&profile).length() * table.length_of(e))
     }
+}
+
+/// Ends of the three parts of an element that hold on to the bed, each at a Gauss point: as long as the points weigh.
+const PARTS: [f64; 4] = [0.0, 5.0 / 18.0, 13.0 / 18.0, 1.0];
+
+/// Quadrature points of an interval as far as it lies in part `g` of an element.
+fn points_on(interval: Interval, g: usize) -> impl Iterator<Item = GaussPoint> {
+    let (from, to) = (interval.from.max(PARTS[g]), interval.to.min(PARTS[g + 1]));
+    let width = (to - from).max(0.0);
+    GAUSS3.iter().map(move |point| GaussPoint { x: from + width * point.x, weight: width * point.weight })
 }
 
 /// What leaves a line when it leaves the water: buoyancy, drag and added mass.

@@ -65,18 +65,7 @@ pub fn check(scene: &Scene, file: &str) -> Result<Vec<String>, Error> {
     for rule in RULES {
         rule(scene, file)?;
     }
-    supported(scene, file)?;
     Ok([unused_line_types(scene), breaking_waves(scene), without_effect(scene)].concat())
-}
-
-/// Features that the types know and the solver does not yet: each one a block to delete.
-fn supported(scene: &Scene, file: &str) -> Result<(), Error> {
-    let unsupported =
-        |place: String, feature: &str| Err(Error::Unsupported { file: file.into(), place, feature: feature.into() });
-    if scene.environment.seabed.friction != 0.0 {
-        return unsupported("environment.seabed.friction".into(), "friction of the seabed; set it to 0");
-    }
-    Ok(())
 }
 
 fn gravity(scene: &Scene, file: &str) -> Result<(), Error> {

@@ -107,7 +107,6 @@ fn in_the_deck(error: Error, reading: &reading::Reading) -> Error {
     };
     match error {
         Error::Value { file, place, value, allowed } => Error::Value { file, place: at(place), value, allowed },
-        Error::Unsupported { file, place, feature } => Error::Unsupported { file, place: at(place), feature },
         other => other,
     }
 }

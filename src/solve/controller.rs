@@ -1,5 +1,6 @@
 //! From one time to another: pick a step, try it, accept or shrink, land on the end exactly, give up honestly.
 
+use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
 use crate::scene::types;
 use crate::sea::clock::Clock;
@@ -115,6 +116,7 @@ impl Controller {
             let recorded = if let Stages::Record(kept) = &bench.stages { kept.len() } else { 0 };
             let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };
             let order = scheme.error_order();
+            self.next.holds.copy_from(&moment.state.holds);
             let outcome = scheme.step(bench, moment, h, &mut self.next).map(|error| error / demands.error);
             let resolved = |ratio: f64| ratio <= 1.2 || (!controlled || h <= demands.finest_step) && ratio.is_finite();
             match outcome {
@@ -125,6 +127,8 @@ impl Controller {
                     self.tally.unresolved += usize::from(rough);
                     self.tally.error = self.tally.error.max(ratio);
                     self.accept(moment, h, if count == 1.0 { until } else { moment.state.clock.now + h });
+                    let State { u, v, holds, .. } = &mut moment.state;
+                    bench.line.hold(u, v, holds);
                     moment.guard = if rough { GUARDED_STEPS } else { moment.guard.saturating_sub(1) };
                     moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
                     halved = false;
@@ -160,10 +164,11 @@ impl Controller {
         bench: &mut Bench,
         legs: &[Leg],
         change: &mut Moment,
-        mut accepted: impl FnMut(&Moment, usize),
+        mut accepted: impl FnMut(&mut Moment, usize),
     ) -> Result<(), Stall> {
         for (number, leg) in legs.iter().enumerate() {
             let scheme: &mut dyn Scheme = if leg.guarded { &mut self.guard } else { self.scheme.as_mut() };
+            self.next.holds.copy_from(&change.state.holds);
             scheme.step(bench, change, leg.h, &mut self.next)?;
             let time = change.state.clock.now + leg.h;
             self.accept(change, leg.h, time);
@@ -188,8 +193,9 @@ fn next_step(h: f64, ratio: f64, order: f64) -> f64 {
     if factor > 0.85 && factor < 1.25 { h } else { h * factor.max(0.5) }
 }
 
-/// A moment at rest.
-pub fn at_rest(nodes: usize, time: f64, step: f64) -> Moment {
-    let state = State { clock: Clock::at_rest(time), ..State::new(nodes) };
+/// A moment of a line, all zero and at rest.
+pub fn at_rest(line: &dyn Line, time: f64, step: f64) -> Moment {
+    let nodes = line.mesh().nodes();
+    let state = State { clock: Clock::at_rest(time), holds: Field::new(line.holding_nodes()), ..State::new(nodes) };
     Moment { state, earlier: Field::new(nodes), last_step: 0.0, step, guard: 0 }
 }

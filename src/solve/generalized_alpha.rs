@@ -54,6 +54,7 @@ impl Scheme for GeneralizedAlpha {
         blend(&mut self.between.u, ALPHA_F, &next.u, &start.u);
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
+        self.between.holds.copy_from(&next.holds);
         self.between.clock = from.clock_after((1.0 - ALPHA_F) * h);
         bench.prescribe_order(2, &mut self.between.a, self.between.clock);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };

@@ -292,5 +292,5 @@ impl Newton {
 
 /// The motion of a state.
 pub fn motion(state: &State) -> Motion<'_> {
-    Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a }
+    Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }
 }

@@ -91,6 +91,7 @@ pub fn along(line: &dyn Line, state: &State, change: &State, seconds: f64, step:
         moved.u.add(factor, &change.u);
         moved.v.add(factor, &change.v);
         moved.a.add(factor, &change.a);
+        moved.holds.add(factor, &change.holds);
         moved.clock.now += factor * seconds;
         outputs(line, &moved, 0.0, 0.0, &mut forces)
     };
@@ -135,6 +136,7 @@ pub fn end_along(line: &dyn Line, state: &State, change: &State) -> EndChange {
         moved.u.add(factor, &change.u);
         moved.v.add(factor, &change.v);
         moved.a.add(factor, &change.a);
+        moved.holds.add(factor, &change.holds);
         line.end_force(&motion(&moved))
     };
     EndChange {

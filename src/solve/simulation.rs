@@ -23,8 +23,8 @@ use crate::solve::rest;
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
 use crate::solve::start::{self, Bounds};
-use crate::solve::statics;
-use crate::solve::tangent::LinearStage;
+use crate::solve::statics::{self, Balance};
+use crate::solve::tangent::{self, LinearStage};
 use nalgebra::Vector3;
 
 /// How statics went.
@@ -134,6 +134,8 @@ const FINEST_SHARE: f64 = 4.0e-3;
 const CROSSING_SHARE: f64 = 0.1;
 /// Newton increments count as converged at this share of the tolerance.
 const NEWTON_SHARE: f64 = 3.0e-3;
+/// And at most at this share of the displacement at which friction breaks away.
+const BREAKAWAY_SHARE: f64 = 0.05;
 /// A line is at rest where no tension along it can change by more than this share of the tolerance times the end tension.
 const REST_SHARE: f64 = 0.01;
 /// A fairlead that stays within this share of the line's length of a place rests there: rounding.
@@ -220,7 +222,10 @@ impl Simulation {
         let line = physics::build(mesh, surroundings.clone(), supports.clone());
         // A fixed step is asked for to compare: nothing but the step shall be seen in the result.
         let share = if solver.uncontrolled_step().is_some() { 1.0e-4 } else { NEWTON_SHARE };
-        let criteria = Criteria { tolerance: (share * solver.tolerance).clamp(1e-11, 1e-4), length, iterations: 12 };
+        // Where friction holds the line, what the iteration leaves must be small against the way to breaking away.
+        let holding = surroundings.breakaway().map_or(f64::INFINITY, |breakaway| BREAKAWAY_SHARE * breakaway / length);
+        let tolerance = (share * solver.tolerance).clamp(1e-11, 1e-4).min(holding);
+        let criteria = Criteria { tolerance, length, iterations: 12 };
         let mut simulation = Simulation {
             name: scene.lines[index].name.clone(),
             surroundings,
@@ -238,7 +243,7 @@ impl Simulation {
                 fixed_step: solver.uncontrolled_step(),
                 criteria,
             },
-            moment: controller::at_rest(nodes, 0.0, solver.max_step),
+            moment: controller::at_rest(line.as_ref(), 0.0, solver.max_step),
             line,
             mixed,
             work: 0.0,
@@ -281,27 +286,15 @@ impl Simulation {
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
     /// On `Err(Error::Statics)` the best state found stands, so that it can be looked at.
     pub fn settle(&mut self, fairlead: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
-        let nodes = self.line.mesh().nodes();
-        self.moment = controller::at_rest(nodes, time, self.demands.max_step);
+        self.moment = controller::at_rest(self.line.as_ref(), time, self.demands.max_step);
         let (anchor, fairlead) = (self.start_of(0, self.anchor), self.start_of(self.line.last(), fairlead));
         start::guess(self.line.mesh(), &self.bounds, &anchor, &fairlead, &mut self.moment.state.u);
         self.line.place(0, &mut self.moment.state.u, time);
-        let (mesh, surroundings, supports) = (self.line.mesh(), &self.surroundings, &self.supports);
-        let soften = |limit: f64| {
-            let mut soft = mesh.clone();
-            for (number, section) in soft.sections.iter_mut().enumerate().filter(|(_, section)| section.ea > limit) {
-                if let Some(elasticity) = soft.elasticities.get_mut(number) {
-                    *elasticity = elasticity.scaled(limit / section.ea);
-                }
-                section.ea = limit;
-            }
-            physics::build(soft, surroundings.clone(), supports.clone())
-        };
-        let mut balance = statics::settle(self.line.as_ref(), &soften, &mut self.newton, &mut self.moment.state);
+        let (mut balance, smooth) = self.balance();
         if let Some(mixed) = &mut self.mixed {
             balance = mixed.settle(self.line.as_ref(), &mut self.moment.state, balance);
         }
-        self.begin_anew();
+        self.begin_anew(smooth.as_deref());
         if balance.converged() {
             return Ok(StaticsReport { iterations: balance.iterations, residual: balance.residual, converged: true });
         }
@@ -315,20 +308,48 @@ impl Simulation {
         })))
     }
 
-    /// What a new beginning resets, and the error of a step that is allowed from here.
-    fn begin_anew(&mut self) {
-        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * self.tension_length();
+    /// Finds the equilibrium without friction, and from there, if there is friction, that of the line as it is laid and the places of the
+    /// bed that hold it there; returns the line without friction, too.
+    fn balance(&mut self) -> (Balance, Option<Box<dyn Line>>) {
+        let (mesh, surroundings, supports) = (self.line.mesh(), &self.surroundings, &self.supports);
+        let soften = |limit: f64, surroundings: Surroundings| {
+            let mut soft = mesh.clone();
+            for (number, section) in soft.sections.iter_mut().enumerate().filter(|(_, section)| section.ea > limit) {
+                if let Some(elasticity) = soft.elasticities.get_mut(number) {
+                    *elasticity = elasticity.scaled(limit / section.ea);
+                }
+                section.ea = limit;
+            }
+            physics::build(soft, surroundings, supports.clone())
+        };
+        let (line, newton, state) = (self.line.as_ref(), &mut self.newton, &mut self.moment.state);
+        if line.holding_nodes() == 0 {
+            let balance = statics::settle(line, &|limit| soften(limit, surroundings.clone()), newton, state);
+            return (balance, None);
+        }
+        let smooth = soften(f64::INFINITY, surroundings.without_friction());
+        let mut balance =
+            statics::settle(smooth.as_ref(), &|limit| soften(limit, surroundings.without_friction()), newton, state);
+        if balance.converged() {
+            let laid = soften(f64::INFINITY, surroundings.laid(mesh));
+            laid.lay(&state.u, &mut state.holds);
+            let before = balance.iterations;
+            balance = statics::settle(laid.as_ref(), &|limit| soften(limit, surroundings.laid(mesh)), newton, state);
+            balance.iterations += before;
+            laid.hold(&state.u, &state.v, &mut state.holds);
+        }
+        (balance, Some(smooth))
+    }
+
+    /// What a new beginning resets, and the error of a step that is allowed from here; `smooth` is the line without friction, if it
+    /// has any.
+    fn begin_anew(&mut self, smooth: Option<&dyn Line>) {
+        let line = smooth.unwrap_or(self.line.as_ref());
+        let tension_length = tension_length(line, &mut self.newton, &self.moment.state);
+        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * tension_length;
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.work, self.fresh, self.resting, self.last) = (0.0, true, false, LastStep::default());
-    }
-
-    /// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
-    fn tension_length(&mut self) -> f64 {
-        let length = self.line.mesh().length;
-        let tension = self.line.end_force(&motion(&self.moment.state)).norm();
-        let stiffness = self.newton.fairlead_stiffness(self.line.as_ref(), &self.moment.state).map_or(0.0, |k| k.norm());
-        if stiffness > 0.0 { (tension / stiffness).clamp(1e-5 * length, 0.02 * length) } else { 0.02 * length }
     }
 
     /// Advances to a time with the fairlead on a path. On an error the state is the one before the call. A line at rest whose
@@ -551,7 +572,8 @@ impl Simulation {
     /// Whether a state is one of this line: it has as many nodes.
     pub fn fits(&self, snapshot: &Snapshot) -> bool {
         let tensions = self.mixed.as_ref().map_or(snapshot.tensions.now.is_empty(), |mixed| mixed.fits(&snapshot.tensions));
-        snapshot.nodes() == self.line.mesh().nodes() && tensions
+        let holds = snapshot.moment.state.holds.nodes() == self.line.holding_nodes();
+        snapshot.nodes() == self.line.mesh().nodes() && tensions && holds
     }
 
     /// Rates of the outputs in time, from the motion of the line now and the change of its acceleration over the last step.
@@ -565,7 +587,8 @@ impl Simulation {
             jerk.set_sum([(1.0, &state.a), (-1.0, &moment.earlier)]);
             jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
         }
-        let rate = State { clock: state.clock, u: state.v.clone(), v: state.a.clone(), a: jerk };
+        let holds = tangent::hold_rate(self.line.as_ref(), state);
+        let rate = State { clock: state.clock, u: state.v.clone(), v: state.a.clone(), a: jerk, holds };
         let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0, 1.0e-4);
         let velocity = state.v.position(self.line.last());
         (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));
@@ -642,14 +665,15 @@ impl Simulation {
         let stages = Stages::Linear(stages.iter());
         let allowed = self.demands.error;
         let mut bench = Bench { line, newton: &mut self.newton, path: variation, criteria, allowed, stages };
-        let mut change = controller::at_rest(line.mesh().nodes(), *time, 0.0);
+        let mut change = controller::at_rest(line, *time, 0.0);
         if *fresh {
             begin(&mut bench, &mut change).map_err(failed)?;
         }
         change.last_step = *history;
         let mut work = 0.0;
         let mut before = outputs::end_along(line, &states[0], &change.state);
-        let along = |change: &Moment, number: usize| {
+        let along = |change: &mut Moment, number: usize| {
+            tangent::hold(line, &states[number + 1], &states[number].holds, &mut change.state);
             let now = outputs::end_along(line, &states[number + 1], &change.state);
             work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
             work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));
@@ -697,15 +721,19 @@ impl Simulation {
     }
 
     /// Begins from given nodes instead of from equilibrium; false, and nothing changed, if a node of the mesh is not among them. The
-    /// accelerations are those that fit; λ is taken over by `cable-1994` alone.
+    /// accelerations are those that fit; λ is taken over by `cable-1994` alone. Friction begins as on a line
+    /// laid slack and pulled tight.
     pub fn start_from(&mut self, given: &LineState) -> bool {
-        let mut moment = controller::at_rest(self.line.mesh().nodes(), given.time, self.demands.max_step);
+        let mut moment = controller::at_rest(self.line.as_ref(), given.time, self.demands.max_step);
         let Some(tensions) = line_state::set(self.line.as_ref(), given, &mut moment.state) else { return false };
+        let State { u, v, holds, .. } = &mut moment.state;
+        self.line.lay(u, holds);
+        self.line.hold(u, v, holds);
         self.moment = moment;
         if let Some(mixed) = &mut self.mixed {
             mixed.restore(&Tensions { now: tensions.clone(), before: tensions });
         }
-        self.begin_anew();
+        self.begin_anew(None);
         true
     }
 
@@ -764,4 +792,12 @@ fn begin(bench: &mut Bench, moment: &mut Moment) -> Result<(), Stall> {
 
 fn is_finite(k: &Kinematics) -> bool {
     [k.position, k.velocity, k.acceleration].iter().all(|v| v.iter().all(|x| x.is_finite()))
+}
+
+/// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
+fn tension_length(line: &dyn Line, newton: &mut Newton, state: &State) -> f64 {
+    let length = line.mesh().length;
+    let tension = line.end_force(&motion(state)).norm();
+    let stiffness = newton.fairlead_stiffness(line, state).map_or(0.0, |k| k.norm());
+    if stiffness > 0.0 { (tension / stiffness).clamp(1e-5 * length, 0.02 * length) } else { 0.02 * length }
 }

@@ -27,7 +27,12 @@ pub struct LinearStage {
     by_velocity: BlockTridiagonal<COMPONENTS>,
     by_acceleration: BlockTridiagonal<COMPONENTS>,
     factor: Factor<COMPONENTS>,
+    /// The stage, where friction has a memory.
+    state: Option<State>,
 }
+
+/// Share of a change that is taken to differentiate what friction holds on to: well inside the distance at which it breaks away.
+const SHARE: f64 = 1.0e-6;
 
 impl LinearStage {
     /// The linearisation of a stage.
@@ -48,6 +53,7 @@ impl LinearStage {
             by_velocity: matrix(0.0, 1.0, 0.0),
             by_acceleration: matrix(0.0, 0.0, 1.0),
             factor,
+            state: (line.holding_nodes() > 0).then(|| stage.state.clone()),
         })
     }
 
@@ -62,9 +68,20 @@ impl LinearStage {
             force.iter_mut().zip(&part).for_each(|(sum, part)| *sum += part);
         }
         let mut x = Field::new(nodes);
+        if let Some(state) = &self.state {
+            let mut moved = state.clone();
+            let mut other = Field::new(nodes);
+            moved.holds.add(SHARE, &trial.holds);
+            line.residual(&motion(&moved), &mut other);
+            moved.holds.add(-2.0 * SHARE, &trial.holds);
+            line.residual(&motion(&moved), &mut x);
+            other.add(-1.0, &x);
+            x.fill(0.0);
+            x.add(0.5 / SHARE, &other);
+        }
         for (node, f) in force.iter().enumerate() {
             for c in 0..COMPONENTS {
-                x.component_mut(c)[node] = f[c];
+                x.component_mut(c)[node] += f[c];
             }
         }
         line.fixed().iter().for_each(|&(node, component)| x.component_mut(component)[node] = 0.0);
@@ -74,6 +91,35 @@ impl LinearStage {
         trial.v.add(-self.weights.v, &x);
         trial.a.add(-self.weights.a, &x);
     }
+}
+
+/// Change of the places that friction holds on to after a step to `end` from places `before`, of which `change` holds the changes.
+pub fn hold(line: &dyn Line, end: &State, before: &Field, change: &mut State) {
+    if line.holding_nodes() == 0 {
+        return;
+    }
+    let held = |share: f64| {
+        let mut moved = State { holds: before.clone(), ..end.clone() };
+        moved.u.add(share, &change.u);
+        moved.v.add(share, &change.v);
+        moved.holds.add(share, &change.holds);
+        line.hold(&moved.u, &moved.v, &mut moved.holds);
+        moved.holds
+    };
+    let mut rate = held(SHARE);
+    rate.add(-1.0, &held(-SHARE));
+    change.holds.fill(0.0);
+    change.holds.add(0.5 / SHARE, &rate);
+}
+
+/// Rate [m/s] at which the places that friction holds on to follow a moving line.
+pub fn hold_rate(line: &dyn Line, state: &State) -> Field {
+    let (mut holds, mut place) = (state.holds.clone(), state.u.clone());
+    place.add(SHARE, &state.v);
+    line.hold(&place, &state.v, &mut holds);
+    holds.add(-1.0, &state.holds);
+    holds.data_mut().iter_mut().for_each(|x| *x /= SHARE);
+    holds
 }
 
 fn blocks(field: &Field) -> Vec<SVector<f64, COMPONENTS>> {

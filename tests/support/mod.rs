@@ -101,7 +101,11 @@ pub fn nothing() -> Surroundings {
 /// A flat bed at height `level`, of the same resistance everywhere, touched `onset` above its level.
 pub fn bed(mesh: &Mesh, level: f64, stiffness: f64, onset: f64) -> Ground {
     let resistance = Resistance { stiffness, damping: 0.0, onset, easing: onset.max(0.01) };
-    Ground { plane: Plane { normal: Vector3::z(), offset: level }, resistance: vec![resistance; mesh.elements.len()] }
+    Ground {
+        plane: Plane { normal: Vector3::z(), offset: level },
+        resistance: vec![resistance; mesh.elements.len()],
+        friction: None,
+    }
 }
 
 /// Supports, put together one by one.
@@ -294,7 +298,7 @@ impl Rig {
         let criteria = Criteria { tolerance: 1.0e-13, length: line.mesh().length, iterations: 30 };
         let demands = Demands { error: 1.0, finest_step: 0.0, max_step: step, fixed_step: Some(step), criteria };
         let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed: 0.0, stages: Stages::Solve };
-        let mut moment: Moment = controller::at_rest(line.mesh().nodes(), 0.0, step);
+        let mut moment: Moment = controller::at_rest(line, 0.0, step);
         moment.state = self.state.clone();
         bench.prescribe(&mut moment.state, Clock::at_rest(0.0));
         bench.accelerate(&mut moment.state).expect("regular mass matrix");
