@@ -14,6 +14,7 @@ from measure import SCHEMES, Failed, Run, errors, judged, on_one_core, put, refe
 from scenes import CASES
 
 TOLERANCES = [1e-2, 1e-3, 1e-4]
+HEAD = ["scene", "scheme", "requested", "elements", "achieved (rms)", "achieved / requested", "largest", "mesh", "steps"]
 
 
 def on_nodes(scene, nodes):
@@ -53,9 +54,8 @@ def main():
             for tolerance in TOLERANCES[: 2 if quick else None]:
                 rows.append(row(case, exact, scheme, tolerance))
                 print(*rows[-1], sep=" | ", flush=True)
-    head = ["scene", "scheme", "requested", "elements", "achieved (rms)", "achieved / requested", "largest", "mesh", "steps"]
-    if not quick:
-        put("tolerance", "python3 tests/bench/tolerance.py", table(head, rows, 2))
+        if not quick:
+            put("tolerance", "python3 tests/bench/tolerance.py", table(HEAD, rows, 2))
 
 
 if __name__ == "__main__":
