@@ -63,9 +63,9 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 {stiffness / d!r} kBot
 0.0 cBot
 1.0 dtIC
-600.0 TmaxIC
+100.0 TmaxIC
 4.0 CdScaleIC
-1e-5 threshIC
+1e-4 threshIC
 ---------------------- END
 """
 

@@ -73,9 +73,9 @@ def main():
             rows.append([name, scheme, *cells])
             print(*rows[-1], sep=" | ", flush=True)
     text = table(["scene", "scheme", *(f"{step:g} s" for step in STEPS), "controlled"], rows, 2)
+    text += f"\n\n{len(messages)} of {len(rows) * (len(STEPS) + 1)} runs ended with an error."
     if messages:
-        first = messages[0].splitlines()[0]
-        text += f"\n\n{len(messages)} of {len(rows) * (len(STEPS) + 1)} runs end with a named error; the first says: {first}"
+        text += f" The first says: {messages[0].splitlines()[0]}"
     put("step-map", "python3 tests/bench/step_map.py", text)
     if any("error without time" in row or "not a number" in row for row in rows):
         sys.exit("a run ended without saying when, or with a tension that is no number")

@@ -55,7 +55,9 @@ def main():
                 rows.append(row(case, exact, scheme, tolerance))
                 print(*rows[-1], sep=" | ", flush=True)
         if not quick:
-            put("tolerance", "python3 tests/bench/tolerance.py", table(HEAD, rows, 2))
+            within = sum("**" not in cells[5] and cells[3] != "" for cells in rows)
+            text = f"{table(HEAD, rows, 2)}\n\n{within} of {len(rows)} are within what was requested."
+            put("tolerance", "python3 tests/bench/tolerance.py", text)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,9 @@
 
     cargo build --release && python3 tests/bench/work_precision.py [--quick] [--runs N] [--few] [--without-peer] [SCENE ...]
 
-Without names it takes all scenes of scenes.py; `--few` leaves the slow points out: given meshes, tolerances below 1e-4, 160 segments. `--quick` runs each scheme on the built-in case at default settings, and the smallest peer,
-writes nothing, and fails where the error is above what is promised (0.1 % rms, 0.2 % at most); it never fails on time.
+Without names it takes all scenes of scenes.py. `--few` leaves the slow points out: given meshes, tolerances below 1e-4, 80 and 160
+segments. `--quick` runs each scheme on the built-in case at default settings, and the smallest peer, writes nothing, and fails where the
+error is above what is promised (0.1 % rms, 0.2 % at most); it never fails on time.
 
 Time: `solver_seconds` of summary.json, the loop of time steps alone; of MoorDyn, the process's CPU time of the loop of its steps. The
 smallest of several runs. Error: of the tension at the fairlead against a converged reference: of the built-in case
@@ -21,7 +22,7 @@ if "--without-peer" not in sys.argv:
     in_environment()
     import peer
 
-from scenes import BUILT_IN, CASES, with_mesh
+from scenes import BUILT_IN, CASES, FINE, with_mesh
 
 TOLERANCES = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5]
 MESHES = [5, 10, 20, 40, 80]
@@ -34,7 +35,7 @@ STORE = ROOT / "target/bench"
 
 
 def ours(case, exact, runs):
-    """Points of moorline: each scheme, the mesh left to the program or given, tolerances over three decades."""
+    """Points of moorline: each scheme with step control, the mesh left to the program or given, tolerances over three decades."""
     for elements in [None] if FEW else [None, *MESHES]:
         for tolerance in MESH_TOLERANCES if elements else TOLERANCES[: 5 if FEW else None]:
             for scheme in SCHEMES:
@@ -49,6 +50,25 @@ def ours(case, exact, runs):
                 work = {key: run.summary[key] for key in ("steps", "newton_iterations", "element_iterations")}
                 used = run.summary["elements"]
                 yield {**point, "used": used, "rms": rms, "largest": largest, "seconds": run.seconds, **work}
+
+
+def of_1994(case, runs):
+    """Points of the report's own scheme: fixed steps, and its own law of extension, so against a reference with that law."""
+    fine = {**FINE, "stretch": "report"}
+    run = Run(with_mesh(case.scene, fine.pop("elements")), **fine)
+    exact = judged(case, run.times, run.tension)
+    for elements in MESHES[2:]:
+        for step in (0.1, 0.05, 0.025, 0.01, 0.005):
+            settings = f"{elements} elements, step {1e3 * step:g} ms"
+            point = {"program": "moorline", "scheme": "cable-1994", "elements": elements, "tolerance": None, "settings": settings}
+            try:
+                run = fastest(with_mesh(case.scene, elements), runs, scheme="cable-1994", fixed_step=step)
+            except Failed as failure:
+                yield {**point, "failed": str(failure)}
+                continue
+            rms, largest = errors(case, judged(case, run.times, run.tension), exact)
+            work = {"used": run.summary["elements"], "steps": run.summary["steps"], "seconds": run.seconds}
+            yield {**point, "rms": rms, "largest": largest, **work}
 
 
 def crossing(scene, segments):
@@ -93,7 +113,7 @@ def theirs(case, exact, runs):
     """Points of MoorDyn, each at its largest stable step. Weak instability does not break a run, it fills it with noise: stable is a step whose
     error is at most a quarter larger than that of a step a third as long as the longest that survives."""
     row, bound = case.scene["run"]["output_step"], 1.5 * max(exact)
-    for segments in SEGMENTS[: 4 if FEW else None]:
+    for segments in SEGMENTS[: 3 if FEW else None]:
         for scheme in ("rk4", "rk2"):
             point = {"program": "MoorDyn", "scheme": scheme, "elements": segments}
             steps = fewest_steps(case, segments, scheme, bound)
@@ -121,11 +141,6 @@ def is_default(point):
     return point["program"] == "moorline" and point["scheme"] == "adams-moulton" and not point["elements"] and point["tolerance"] == 1e-3
 
 
-def front(points):
-    """Points that none beats in both error and time."""
-    return [p for p in points if not any(q["rms"] <= p["rms"] and q["seconds"] < p["seconds"] for q in points)]
-
-
 def report(case, points):
     """The tables of a case: the fastest at each level, the mesh left to the program, the peer; the rest is in the picture."""
     good = [p for p in points if "failed" not in p]
@@ -137,10 +152,11 @@ def report(case, points):
             enough = [p for p in good if p["program"] == name and p["rms"] <= level and p["largest"] <= 2 * level]
             best = min(enough, key=lambda p: p["seconds"], default=None)
             what = f"{best['scheme']}, {best['settings']}" if best else "none of these"
-            rows.append([percent(level), name, what, *([percent(best["rms"]), percent(best["largest"]), milliseconds(best["seconds"])] if best else ["", "", ""])])
+            found = [percent(best["rms"]), percent(best["largest"]), milliseconds(best["seconds"])] if best else ["", "", ""]
+            rows.append([percent(level), name, what, *found])
     lines += ["The fastest within a level (rms, and largest error at most twice it):", ""]
     lines += [table(["level", "program", "settings", "rms error", "largest error", "time"], rows, 3), ""]
-    kept = [p for p in points if p["program"] == "MoorDyn" or not p["elements"]]
+    kept = [p for p in points if p["program"] == "MoorDyn" or not p["elements"] or p["scheme"] == "cable-1994"]
     rows = []
     for p in kept:
         name = f"{p['program']} {p['scheme']}" + (" **(default)**" if is_default(p) else "")
@@ -152,8 +168,12 @@ def report(case, points):
     lines += [table(["program", "settings", "rms error", "largest error", "steps", "time"], rows, 2), ""]
     default = next((p for p in good if is_default(p)), None)
     if default:
-        nearby = [p["seconds"] for p in good if p["program"] == "moorline" and p["rms"] <= default["rms"] and p["largest"] <= default["largest"]]
-        lines += [f"Default settings take {milliseconds(default['seconds'])}; the fastest point of moorline that is as accurate takes {milliseconds(min(nearby))}."]
+        mine = (p for p in good if p["program"] == "moorline" and p["rms"] <= default["rms"] and p["largest"] <= default["largest"])
+        quickest = min(mine, key=lambda p: p["seconds"])
+        lines += [
+            f"Default settings take {milliseconds(default['seconds'])}; the fastest point of moorline that is as accurate "
+            f"({quickest['scheme']}, {quickest['settings']}) takes {milliseconds(quickest['seconds'])}."
+        ]
         if peers:
             finest = max(peers, key=lambda p: (p["elements"], p["scheme"]))
             ratio = finest["seconds"] / default["seconds"]
@@ -162,6 +182,11 @@ def report(case, points):
                 f"{percent(finest['rms'])}, which is also how well the two programs' answers agree."
             ]
     return "\n".join(lines)
+
+
+def draw(axes, points, *how, **style):
+    if points:
+        axes.plot([1e3 * p["seconds"] for p in points], [p["rms"] for p in points], *how, **style)
 
 
 def picture(case, points):
@@ -178,13 +203,15 @@ def picture(case, points):
         mine = [p for p in good if p["program"] == "moorline" and p["scheme"] == scheme]
         auto = sorted((p for p in mine if not p["elements"]), key=lambda p: p["tolerance"], reverse=True)
         given = [p for p in mine if p["elements"]]
-        axes.plot([1e3 * p["seconds"] for p in auto], [p["rms"] for p in auto], "o-", color=colour, label=f"moorline {scheme}, automatic mesh")
-        axes.plot([1e3 * p["seconds"] for p in given], [p["rms"] for p in given], ".", color=colour, alpha=0.45, label="  5 to 80 equal elements")
+        draw(axes, auto, "o-", color=colour, label=f"moorline {scheme}, automatic mesh")
+        draw(axes, given, ".", color=colour, alpha=0.45, label="  5 to 80 equal elements")
+    old = [p for p in good if p["scheme"] == "cable-1994"]
+    draw(axes, old, "x", color="#8a5fa8", label="moorline cable-1994, 20 to 80 elements")
     for scheme, mark in (("rk2", "v:"), ("rk4", "s--")):
         other = [p for p in good if p["program"] == "MoorDyn" and p["scheme"] == scheme]
-        axes.plot([1e3 * p["seconds"] for p in other], [p["rms"] for p in other], mark, color="#555555", label=f"MoorDyn {scheme}, 10 to 160 segments")
+        draw(axes, other, mark, color="#555555", label=f"MoorDyn {scheme}, 10 to 160 segments")
     for p in filter(is_default, good):
-        axes.plot(1e3 * p["seconds"], p["rms"], "o", ms=13, mfc="none", mec="black", label="default settings")
+        draw(axes, [p], "o", ms=13, mfc="none", mec="black", label="default settings")
     axes.set(xscale="log", yscale="log", xlabel="time of the loop of steps [ms]", title=case.name)
     axes.set_ylabel("error of the mean of the cycle maxima [%]" if case.peaks else "rms error of the fairlead tension [%]")
     axes.grid(which="major", alpha=0.3)
@@ -229,17 +256,18 @@ def main():
         exact = reference(case)
         # The two programs take turns, so that a busy minute of the machine meets both.
         points, sources = [], [ours(case, exact, runs)]
+        if case.name == "built-in" and not FEW:
+            sources.append(of_1994(case, runs))
         if "peer" in globals():
             sources.append(theirs(case, exact, min(runs, 3)))
         while sources:
             for source in list(sources):
-                for point in [next(source, None) for _ in range(6 if source is sources[0] else 1)]:
-                    if point is None:
-                        if source in sources:
-                            sources.remove(source)
-                    else:
-                        points.append(point)
-                        print(case.name, json.dumps(point), flush=True)
+                point = next(source, None)
+                if point is None:
+                    sources.remove(source)
+                else:
+                    points.append(point)
+                    print(case.name, json.dumps(point), flush=True)
         points.sort(key=lambda p: p["program"] == "MoorDyn")
         (STORE / f"work-precision-{case.name}.json").write_text(json.dumps(points, indent=1), encoding="utf-8")
         text = report(case, points)
