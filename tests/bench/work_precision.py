@@ -178,7 +178,7 @@ def report(case, points):
             finest = max(peers, key=lambda p: (p["elements"], p["scheme"]))
             ratio = finest["seconds"] / default["seconds"]
             lines += [
-                f"MoorDyn with {finest['elements']} segments ({finest['scheme']}) takes {ratio:.0f} times as long at an rms error of "
+                f"MoorDyn with {finest['elements']} segments ({finest['scheme']}) takes {ratio:.2g} times as long at an rms error of "
                 f"{percent(finest['rms'])}, which is also how well the two programs' answers agree."
             ]
     return "\n".join(lines)
