@@ -28,6 +28,9 @@ const POSITION_NODES: usize = 6;
 const FORETOLD: usize = 3;
 /// The share with which a miss of the present counts: a kink of the motion is forgotten sooner, jitter is judged by the past.
 const PRESENT_VOICE: f64 = 0.5;
+/// From here on it counts [m/s]. Where the present tells nothing new it does not choose, so that the path is linear in it: small changes of
+/// the inputs, by which a master differentiates or iterates, change the path in proportion.
+const NOTICEABLE: f64 = 1.0e-3;
 /// Past values that this takes.
 const SPACED_NODES: usize = POSITION_NODES + FORETOLD;
 /// Largest error of foretelling the present, as a part of all that changed over the nodes, that counts as smooth.
@@ -230,6 +233,7 @@ impl InputPath {
             times[number] = self.samples[index].time - now.time;
             differences[number] = value(&self.samples[index]);
         }
+        let noticeable = if position_only { -NOTICEABLE * times[1] } else { NOTICEABLE };
         let count = nodes.len() + 1;
         let values = differences;
         let (mut changed, mut best, mut least) = (0.0, 0, f64::INFINITY);
@@ -247,7 +251,8 @@ impl InputPath {
                 break;
             }
             let past = (1..=FORETOLD).take_while(|first| first + order < count).map(missed);
-            let worst = past.fold(PRESENT_VOICE * missed(0), f64::max);
+            let present = Some(missed(0)).filter(|miss| *miss > noticeable).map_or(0.0, |miss| PRESENT_VOICE * miss);
+            let worst = past.fold(present, f64::max);
             if worst < least && (order == 1 || missed(0) <= SMOOTH * changed) {
                 (best, least) = (order - 1, worst);
             }
