@@ -301,7 +301,6 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         r#""constraints": [{"s": 8, "locked": [true, false]}],"#,
         &["lines[0].constraints[0].locked", "three"],
     ),
-    (r#""name": "line","#, r#""constraints": [{"s": 8, "mass": 3}],"#, &["lines[0].constraints", "does not support constraints"]),
     (r#""mass": 135.35,"#, r#""mass": 135.35, "outer_area": -1,"#, &["line_types.chain.outer_area", "-1 is not allowed", "m²"]),
     (r#""mass": 135.35,"#, r#""mass": 135.35, "seabed_stiffness": 0,"#, &["line_types.chain.seabed_stiffness", "Pa"]),
     (r#""duration": 120.0"#, r#""duration": 120.0, "start": 1e16"#, &["run.start", "1e16"]),

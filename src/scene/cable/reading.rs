@@ -674,10 +674,14 @@ fn says_nothing(line: &str) -> bool {
     })
 }
 
-/// Where a text ends before it has given a number of nodes, it is no CABLE file at all.
+/// Where a text ends before it has given a number of nodes, or has no digit in its place, it is no CABLE file at all.
 fn neither(error: Error) -> Error {
+    let elsewhere = |problem: &DeckProblem| match problem {
+        DeckProblem::Unreadable { found, .. } => !found.contains(|c: char| c.is_ascii_digit()),
+        problem => *problem == DeckProblem::Ends,
+    };
     match error {
-        Error::Deck { file, line, column, item, problem } if *problem == DeckProblem::Ends => {
+        Error::Deck { file, line, column, item, problem } if elsewhere(&problem) => {
             Error::Deck { file, line, column, item, problem: DeckProblem::Neither.into() }
         }
         other => other,

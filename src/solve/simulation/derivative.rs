@@ -1,0 +1,129 @@
+//! What a step's end depends on: steps taken again as linear ones, or repeated where the scheme is one linear solve itself.
+
+use super::{Simulation, begin};
+use crate::error::Error;
+use crate::rod::state::State;
+use crate::solve::controller::{self, Failure, Leg};
+use crate::solve::motion::Path;
+use crate::solve::outputs::{self, Outputs};
+use crate::solve::scheme::{Bench, Moment, Stages};
+use crate::solve::snapshot::Snapshot;
+use crate::solve::tangent::{self, LinearStage};
+
+/// Steps already taken and linearised: what `derivative` goes along, as often as wanted.
+pub struct Linearised {
+    time: f64,
+    history: f64,
+    fresh: bool,
+    legs: Vec<Leg>,
+    states: Vec<State>,
+    stages: Vec<LinearStage>,
+    repeated: Option<Repeated>,
+}
+
+/// Where steps of `cable-1994` begin, until when and along which path: they are repeated, not linearised.
+type Repeated = (Snapshot, f64, Path);
+
+impl Linearised {
+    fn repeated(from: &Snapshot, until: f64, path: &Path) -> Linearised {
+        Linearised {
+            time: from.moment.state.clock.now,
+            history: 0.0,
+            fresh: false,
+            legs: Vec::new(),
+            states: Vec::new(),
+            stages: Vec::new(),
+            repeated: Some((from.clone(), until, path.clone())),
+        }
+    }
+}
+
+impl Simulation {
+    /// Takes the steps to a time and linearises them. The simulation stays as it is.
+    pub fn linearise(&mut self, until: f64, path: &Path) -> Result<Linearised, Error> {
+        let now = self.snapshot();
+        let tally = (self.controller.tally, self.newton.effort);
+        let outcome = if self.mixed.is_some() {
+            Ok(Linearised::repeated(&now, until, path))
+        } else {
+            self.linearise_from_here(until, path)
+        };
+        let outcome = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, now.moment.state.clock.now))));
+        self.restore(&now);
+        (self.controller.tally, self.newton.effort) = tally;
+        outcome
+    }
+
+    fn linearise_from_here(&mut self, until: f64, path: &Path) -> Result<Linearised, Failure> {
+        let (time, line, criteria) = (self.moment.state.clock.now, self.line.as_ref(), self.demands.criteria);
+        let allowed = self.demands.error;
+        let failed = |stall| Failure { time, step: 0.0, stall: Some(stall) };
+        let mut solved = Vec::new();
+        let mut legs = Vec::new();
+        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Record(&mut solved) };
+        let fresh = std::mem::take(&mut self.fresh);
+        if fresh {
+            begin(&mut bench, &mut self.moment).map_err(failed)?;
+        }
+        let mut states = vec![self.moment.state.clone()];
+        let history = self.moment.last_step;
+        self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment, leg| {
+            states.push(moment.state.clone());
+            legs.push(*leg);
+        })?;
+        let stages = solved.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        Ok(Linearised { time, history, fresh, legs, states, stages, repeated: None })
+    }
+
+    /// Change of all outputs at the end of linearised steps per variation of their path: the steps are differentiated, not repeated.
+    pub fn derivative(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Error> {
+        let outcome = self.change(steps, variation);
+        outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, variation, steps.time))))
+    }
+
+    /// Central differences of the report's steps: each is one linear solve, and takes less time than to differentiate it would.
+    fn difference_of_repeats(&mut self, (from, until, path): &Repeated, variation: &Path) -> Result<Outputs, Failure> {
+        let now = self.snapshot();
+        let tally = (self.controller.tally, self.newton.effort);
+        let share = 1.0e-4;
+        let mut moved = |share: f64| {
+            self.restore(from);
+            self.run_mixed(*until, &|time| path.at(time).velocity + variation.at(time).velocity * share)?;
+            Ok(self.outputs())
+        };
+        let ends = moved(share).and_then(|after| Ok((after, moved(-share)?)));
+        self.restore(&now);
+        (self.controller.tally, self.newton.effort) = tally;
+        let (after, before) = ends?;
+        let work = (after.work - before.work) * (0.5 / share);
+        Ok(Outputs { work, ..outputs::difference(&after, &before, 0.5 / share) })
+    }
+
+    fn change(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Failure> {
+        if let Some(repeated) = &steps.repeated {
+            return self.difference_of_repeats(repeated, variation);
+        }
+        let Linearised { time, history, fresh, legs, states, stages, .. } = steps;
+        let (line, criteria) = (self.line.as_ref(), self.demands.criteria);
+        let failed = |stall| Failure { time: *time, step: 0.0, stall: Some(stall) };
+        let stages = Stages::Linear(stages.iter());
+        let allowed = self.demands.error;
+        let mut bench = Bench { line, newton: &mut self.newton, path: variation, criteria, allowed, stages };
+        let mut change = controller::at_rest(line, *time, 0.0);
+        if *fresh {
+            begin(&mut bench, &mut change).map_err(failed)?;
+        }
+        change.last_step = *history;
+        let mut work = 0.0;
+        let mut before = outputs::end_along(line, &states[0], &change.state);
+        let along = |change: &mut Moment, number: usize| {
+            tangent::hold(line, &states[number + 1], &states[number].holds, &mut change.state);
+            let now = outputs::end_along(line, &states[number + 1], &change.state);
+            work += 0.5 * ((before.force_change + now.force_change).dot(&(now.place - before.place)));
+            work += 0.5 * ((before.force + now.force).dot(&(now.place_change - before.place_change)));
+            before = now;
+        };
+        self.controller.repeat(&mut bench, legs, &mut change, along).map_err(failed)?;
+        Ok(Outputs { work, ..outputs::along(line, &states[legs.len()], &change.state, 0.0, 1.0e-4) })
+    }
+}
