@@ -252,7 +252,8 @@ fn osp_description(interface: &Interface) -> String {
 fn timestamp() -> String {
     let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |elapsed| elapsed.as_secs());
     let (mut year, mut day) = (1970, seconds / 86400);
-    let days_of = |year: u64| if year % 4 == 0 && (year % 100 != 0 || year % 400 == 0) { 366 } else { 365 };
+    let days_of =
+        |year: u64| if year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400)) { 366 } else { 365 };
     while day >= days_of(year) {
         day -= days_of(year);
         year += 1;
