@@ -223,7 +223,9 @@ fn scene_to_file_to_scene_keeps_everything_it_promises() {
     let (ea, before) = (back.line_types["chain"].ea, scene.line_types["chain"].ea);
     assert!((ea - before).abs() <= 5e-6 * before);
     for (name, of) in &scene.line_types {
-        back.line_types.get_mut(name).map(|back| back.ea = of.ea);
+        if let Some(back) = back.line_types.get_mut(name) {
+            back.ea = of.ea;
+        }
     }
     let (bed, before) =
         (back.environment.seabed.stiffness.unwrap_or_default(), scene.environment.seabed.stiffness.unwrap_or_default());

@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn solves_an_indefinite_system_to_rounding() {
         let (n, half) = (23, 4);
-        let entry = |i: usize, j: usize| if i == j && i % 3 == 0 { 0.0 } else { ((7 * i + 3 * j) as f64).sin() + 0.3 };
+        let entry = |i: usize, j: usize| if i == j && i.is_multiple_of(3) { 0.0 } else { ((7 * i + 3 * j) as f64).sin() + 0.3 };
         let mut system = Banded::new(n, half);
         for i in 0..n {
             system.right[i] = (i as f64).cos();

@@ -522,12 +522,12 @@ mod tests {
                 for motion in [&surge as &Motion, &jumpy] {
                     let mut last: Option<(f64, Segment)> = None;
                     drive(interpolation, motion, sends, random_steps(200), |time, segment| {
-                        if let Some((before, previous)) = last.take() {
-                            if previous.start != segment.start {
-                                let (was, is) = (previous.at(before), segment.at(time));
-                                assert!((was.0[0] - is.0[0]).abs() < 1e-9 * (1.0 + was.0[0].abs()), "position jumps at {time}");
-                                assert!((was.1[0] - is.1[0]).abs() < 1e-9 * (1.0 + was.1[0].abs()), "velocity jumps at {time}");
-                            }
+                        if let Some((before, previous)) = last.take()
+                            && previous.start != segment.start
+                        {
+                            let (was, is) = (previous.at(before), segment.at(time));
+                            assert!((was.0[0] - is.0[0]).abs() < 1e-9 * (1.0 + was.0[0].abs()), "position jumps at {time}");
+                            assert!((was.1[0] - is.1[0]).abs() < 1e-9 * (1.0 + was.1[0].abs()), "velocity jumps at {time}");
                         }
                         last = Some((time, segment.clone()));
                     });

@@ -38,7 +38,6 @@ pub fn for_each<T: Send, R: Send>(items: &mut [T], work: impl Fn(&mut T) -> R + 
         (1..threads).for_each(|_| drop(scope.spawn(labour)));
         labour();
     });
-    drop(queue);
     results.into_iter().flatten().collect()
 }
 
