@@ -458,7 +458,7 @@ fn an_hour() -> String {
     };
     let (first, last) = (statistics(1200), statistics(30_000));
     let drift: Vec<f64> = (0..5).map(|k| (last[k] / first[k] - 1.0).abs()).collect();
-    // Measured: see docs/stress.md. The noise is that of the steps, whose pattern does not repeat with the period: a few times the
+    // Chosen, not measured yet. The noise is that of the steps, whose pattern does not repeat with the period: a few times the
     // tolerance of 1e-3 in the extremes, which are single rows.
     for (k, allowed) in [1e-4, 1e-3, 3e-3, 3e-3, 2e-3].into_iter().enumerate() {
         assert!(drift[k] <= allowed, "after an hour: {first:?} became {last:?}");
