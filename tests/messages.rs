@@ -265,42 +265,6 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
         r#""constraints": [{"s": 8, "locked": [true, false]}],"#,
         &["lines[0].constraints[0].locked", "three"],
     ),
-    (
-        r#""name": "line","#,
-        r#""attachments": [{"s": 1200.5}],"#,
-        &["lines[0].attachments[0].s", "1200.5", "between 0 (fairlead) and 1200 m (anchor)"],
-    ),
-    (
-        r#""name": "line","#,
-        r#""attachments": [{"s": 5, "volume": -1}],"#,
-        &["lines[0].attachments[0].volume", "-1", "0 or greater"],
-    ),
-    (r#""name": "line","#, r#""constraints": [{"s": -1}],"#, &["lines[0].constraints[0].s", "-1", "between 0 (fairlead)"]),
-    (
-        r#""name": "line","#,
-        r#""constraints": [{"s": 8, "force": [0, 0, 1]}, {"s": 8.0}],"#,
-        &["lines[0].constraints[1].s", "8", "constraints[0] is there already"],
-    ),
-    (
-        r#""name": "line","#,
-        r#""constraints": [{"s": 8, "axes": [[1, 1, 0], [-2, -2, 0]]}],"#,
-        &["lines[0].constraints[0].axes", "[(1, 1, 0), (-2, -2, 0)]", "not parallel"],
-    ),
-    (
-        r#""name": "line","#,
-        r#""constraints": [{"s": 8, "stiffness": [0, -5, 0]}],"#,
-        &["lines[0].constraints[0].stiffness[1]", "-5", "0 or greater, N/m"],
-    ),
-    (
-        r#""name": "line","#,
-        r#""constraints": [{"s": 8, "motion": {"period": 0}}],"#,
-        &["lines[0].constraints[0].motion.period", "0", "greater than 0 s"],
-    ),
-    (
-        r#""name": "line","#,
-        r#""constraints": [{"s": 8, "locked": [true, false]}],"#,
-        &["lines[0].constraints[0].locked", "three"],
-    ),
     (r#""mass": 135.35,"#, r#""mass": 135.35, "outer_area": -1,"#, &["line_types.chain.outer_area", "-1 is not allowed", "m²"]),
     (r#""mass": 135.35,"#, r#""mass": 135.35, "seabed_stiffness": 0,"#, &["line_types.chain.seabed_stiffness", "Pa"]),
     (r#""duration": 120.0"#, r#""duration": 120.0, "start": 1e16"#, &["run.start", "1e16"]),

@@ -112,38 +112,43 @@ impl Cubic {
 
     /// The crossing of `level`, where the signs of the control values tell that there is just one (Descartes).
     fn only_crossing(&self, level: f64) -> Option<f64> {
-        let b = self.0.map(|value| value - level);
+        let shifted = Cubic(self.0.map(|value| value - level));
+        let b = &shifted.0;
         let changes = (0..3).filter(|k| (b[*k] < 0.0) != (b[*k + 1] < 0.0)).count();
-        let d = [3.0 * (b[1] - b[0]), 3.0 * (b[2] - b[1]), 3.0 * (b[3] - b[2])];
-        (changes == 1).then(|| Cubic(b).bracketed_root(0.0, 1.0, b[0] < 0.0, d))
+        (changes == 1).then(|| shifted.bracketed_root(0.0, 1.0, b[0] < 0.0))
     }
 
     /// Crossings of `level` in (0, 1) in rising order, at most 3; returns how many. Between neighbouring extrema the cubic is
     /// monotone, so a safeguarded Newton iteration finds each crossing.
     fn crossings(&self, level: f64, found: &mut [f64]) -> usize {
-        let b = self.0.map(|value| value - level);
-        let d = [3.0 * (b[1] - b[0]), 3.0 * (b[2] - b[1]), 3.0 * (b[3] - b[2])];
+        let shifted = Cubic(self.0.map(|value| value - level));
         let mut stations = [0.0, 1.0, 1.0, 1.0];
         let mut last = 1;
-        for x in extrema(d).into_iter().flatten() {
+        for x in extrema(shifted.derivative()).into_iter().flatten() {
             stations[last] = x;
             last += 1;
         }
         stations[last] = 1.0;
-        let shifted = Cubic(b);
         let mut count = 0;
         for k in 0..last {
             let (x0, x1) = (stations[k], stations[k + 1]);
             let (f0, f1) = (shifted.at(x0), shifted.at(x1));
             if (f0 < 0.0) != (f1 < 0.0) && count < found.len() {
-                found[count] = shifted.bracketed_root(x0, x1, f0 < 0.0, d);
+                found[count] = shifted.bracketed_root(x0, x1, f0 < 0.0);
                 count += 1;
             }
         }
         count
     }
 
-    fn bracketed_root(&self, mut x0: f64, mut x1: f64, rising: bool, d: [f64; 3]) -> f64 {
+    /// Bézier control values of the derivative.
+    fn derivative(&self) -> [f64; 3] {
+        let b = &self.0;
+        [3.0 * (b[1] - b[0]), 3.0 * (b[2] - b[1]), 3.0 * (b[3] - b[2])]
+    }
+
+    fn bracketed_root(&self, mut x0: f64, mut x1: f64, rising: bool) -> f64 {
+        let d = self.derivative();
         let (f0, f1) = (self.at(x0), self.at(x1));
         let secant = x0 - f0 * (x1 - x0) / (f1 - f0);
         let mut x = if secant > x0 && secant < x1 { secant } else { 0.5 * (x0 + x1) };

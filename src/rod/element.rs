@@ -117,7 +117,8 @@ impl Table {
             put(Property::AddedNormal, e, p.added_normal);
             put(Property::AddedTangential, e, p.added_tangential);
         }
-        Table { elements, stride, data, curves: Curves::new(mesh), processor: Arch::new() }
+        let curves = if mesh.is_special() { Curves::new(mesh) } else { Curves::default() };
+        Table { elements, stride, data, curves, processor: Arch::new() }
     }
 
     /// Number of elements, joints included.
@@ -157,12 +158,6 @@ impl Table {
             added_tangential: self.get(Property::AddedTangential, e),
             buoyancy: self.get(Property::Buoyancy, e),
         }
-    }
-
-    /// Axial properties of a point of element `e`, at a slope and a height.
-    fn axial<S: Stretch>(&self, e: usize, slope: Vector3<f64>, z: f64) -> Axial<f64> {
-        let axial = Batch::<f64> { cpu: (), rows: &self.rows(), e }.axial();
-        with_curve::<f64, S>(axial, (), &self.curves, e, &Direction::of(slope.into()), z)
     }
 }
 
@@ -559,13 +554,16 @@ fn at_points<S: Stretch>(
     law: impl Fn(&Axial<f64>, &Vector3<f64>, &Vector3<f64>) -> f64,
     out: &mut [f64],
 ) {
+    let rows = table.rows();
     for e in 0..table.len() {
         let length = table.length_of(e);
         let (ends, others) = (Ends::gather(u, e, length), Ends::gather(other, e, length));
+        let axial = Batch::<f64> { cpu: (), rows: &rows, e }.axial();
         for (g, shape) in SHAPES3.iter().enumerate() {
             let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
             let (p, z) = (slope(&ends), ends.combine(&shape.value).z);
-            out[3 * e + g] = law(&table.axial::<S>(e, p, z), &p, &slope(&others));
+            let axial = with_curve::<f64, S>(axial, (), &table.curves, e, &Direction::of(p.into()), z);
+            out[3 * e + g] = law(&axial, &p, &slope(&others));
         }
     }
 }

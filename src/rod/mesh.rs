@@ -174,6 +174,11 @@ impl Mesh {
         if all.iter().any(|elasticity| *elasticity != Elasticity::default()) { all } else { Vec::new() }
     }
 
+    /// Whether the tension of any section is more than EA times strain.
+    pub fn is_special(&self) -> bool {
+        self.elasticities.iter().any(Elasticity::is_special)
+    }
+
     /// What the tension of an element depends on besides EA.
     pub fn elasticity_of(&self, element: usize) -> &Elasticity {
         const NONE: &Elasticity = &Elasticity { table: None, pressures: None, strained: false };

@@ -6,7 +6,7 @@
 use crate::algebra::sinusoid::Sinusoid;
 use crate::rod::bending::{Bending, Flexible, Stiff};
 use crate::rod::body::Body;
-use crate::rod::elasticity::{Elasticity, Hooke, Tabulated};
+use crate::rod::elasticity::{Hooke, Tabulated};
 use crate::rod::friction::Friction;
 use crate::rod::hold::{self, Hold};
 use crate::rod::line::{Line, Rod, Supports};
@@ -79,7 +79,7 @@ impl Surroundings {
 
 /// The line of a mesh with the physics that it needs.
 pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
-    let special = mesh.elasticities.iter().any(Elasticity::is_special);
+    let special = mesh.is_special();
     // Lines with tables or pressures are few: they carry the terms of bending whether they need them or not.
     match (surroundings.stretch, special) {
         (types::Stretch::Exact, false) => with_bending::<Exact<Hooke>>(mesh, surroundings, supports),

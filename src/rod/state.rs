@@ -107,15 +107,9 @@ impl Field {
         self.processor.dispatch(Sum { to: &mut self.data, own: false, terms });
     }
 
-    /// self += Σ factor·field, entry by entry.
-    pub fn add_sum<const N: usize>(&mut self, terms: [(f64, &Field); N]) {
-        let terms = terms.map(|(factor, field)| (factor, field.data.as_slice()));
-        self.processor.dispatch(Sum { to: &mut self.data, own: true, terms });
-    }
-
     /// self += factor·x, entry by entry.
     pub fn add(&mut self, factor: f64, x: &Field) {
-        self.add_sum([(factor, x)]);
+        self.processor.dispatch(Sum { to: &mut self.data, own: true, terms: [(factor, &x.data)] });
     }
 
     /// Sum of the products, entry by entry.

@@ -4,7 +4,7 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
-use crate::algebra::polynomial::{Cubic, Interval};
+use crate::algebra::polynomial::{Cubic, Interval, Intervals};
 use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, SHAPES3, Shape};
 use crate::rod::element::{Ends, Motion, Table, Weights};
 use crate::rod::element_tangent::{ElementTangent, PointTangent};
@@ -67,7 +67,8 @@ impl Ground {
         let v = Ends::gather(at.v, e, length);
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
         let mut sum = [Triple::zero(()); 4];
-        for part in resistance.touching(&profile).iter() {
+        let touching = resistance.touching(&profile);
+        for part in touching.iter() {
             let push = |_: f64, shape: &Shape| {
                 let rate = v.combine(&shape.value).along(normal);
                 normal * -resistance.push(self.plane.height(&u.combine(&shape.value).into()), rate)
@@ -77,7 +78,7 @@ impl Ground {
         if let Some(friction) = &self.friction {
             let rates = v.along(normal);
             for g in 0..3 {
-                let contact = self.contact(&u, &profile, &rates, (e, g), at.holds);
+                let contact = self.contact(&u, (&profile, &touching, &rates), (e, g), at.holds);
                 let force = friction.force(e, &contact) * -(GAUSS3[g].weight * length);
                 (0..4).for_each(|k| sum[k] = Triple::from(force).scale_add(SHAPES3[g].value[k], sum[k]));
             }
@@ -85,11 +86,17 @@ impl Ground {
         Some(sum)
     }
 
-    /// Part `g` of element `e` and the place of the bed to which it holds on.
-    fn contact(&self, u: &Ends<f64>, profile: &Cubic, rates: &Cubic, (e, g): (usize, usize), holds: &Field) -> Contact {
+    /// Part `g` of element `e` and the place of the bed to which it holds on; given the element's height above the bed, where it
+    /// touches, and the rate of that height.
+    fn contact(
+        &self,
+        u: &Ends<f64>,
+        (profile, touching, rates): (&Cubic, &Intervals, &Cubic),
+        (e, g): (usize, usize),
+        holds: &Field,
+    ) -> Contact {
         let resistance = &self.resistance[e];
-        let push: f64 = resistance
-            .touching(profile)
+        let push: f64 = touching
             .iter()
             .flat_map(|part| points_on(part, g))
             .map(|point| point.weight * resistance.push(profile.at(point.x), rates.at(point.x)))
@@ -132,8 +139,9 @@ impl Ground {
             let length = table.length_of(e);
             let (u, v) = (Ends::gather(u, e, length), Ends::gather(v, e, length));
             let (profile, rates) = (self.profile(&u), v.along(&self.plane.normal));
+            let touching = self.resistance[e].touching(&profile);
             for g in 0..3 {
-                let hold = friction.hold(e, &self.contact(&u, &profile, &rates, (e, g), holds));
+                let hold = friction.hold(e, &self.contact(&u, (&profile, &touching, &rates), (e, g), holds));
                 (0..2).for_each(|c| holds.component_mut(2 * g + c)[e] = hold[c]);
             }
         }
@@ -145,40 +153,41 @@ impl Ground {
         let length = table.length_of(e);
         let v = Ends::gather(at.v, e, length);
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
-        let mut products = [[0.0; 4]; 4];
-        let grounded = resistance.damping == 0.0 && profile.below(resistance.onset);
-        if grounded {
-            products = seabed::grounded_tangent(resistance.stiffness * weights.u, length);
-        }
-        for part in resistance.touching(&profile).iter().filter(|_| !grounded) {
-            for point in &GAUSS4 {
-                let shape = Shape::at(part.from + (part.to - part.from) * point.x);
-                let rate = v.combine(&shape.value).along(normal);
-                let (by_position, by_rate) = resistance.tangent(self.plane.height(&u.combine(&shape.value).into()), rate);
-                let scale = -(by_position * weights.u + by_rate * weights.v) * point.weight * (part.to - part.from) * length;
-                let value = shape.scaled(length).value;
-                for k in 0..4 {
-                    (0..4).for_each(|l| products[k][l] += scale * value[k] * value[l]);
+        let touching = resistance.touching(&profile);
+        let stiffness = |height: f64, rate: f64| {
+            let (by_position, by_rate) = resistance.tangent(height, rate);
+            -(by_position * weights.u + by_rate * weights.v)
+        };
+        let products = if resistance.damping == 0.0 && profile.below(resistance.onset) {
+            seabed::grounded_tangent(resistance.stiffness * weights.u, length)
+        } else {
+            let mut products = [[0.0; 4]; 4];
+            for part in touching.iter() {
+                for point in &GAUSS4 {
+                    let shape = Shape::at(part.from + (part.to - part.from) * point.x);
+                    let rate = v.combine(&shape.value).along(normal);
+                    let stiffness = stiffness(self.plane.height(&u.combine(&shape.value).into()), rate);
+                    let value = shape.scaled(length).value;
+                    add_product(&mut products, stiffness * point.weight * (part.to - part.from) * length, &value, &value);
                 }
             }
-        }
+            products
+        };
         let mut sum = ElementTangent::zero(());
         sum.add_products(&products, &projector(normal).into());
         if let Some(friction) = &self.friction {
             let rates = v.along(normal);
             for g in 0..3 {
-                let contact = self.contact(&u, &profile, &rates, (e, g), at.holds);
+                let contact = self.contact(&u, (&profile, &touching, &rates), (e, g), at.holds);
                 if contact.push > 0.0 {
                     let (change, measure) = (friction.tangent(e, &contact), GAUSS3[g].weight * length);
                     let shape = SHAPES3[g].scaled(length);
                     let point = PointTangent::of_load((-change.by_position * weights.u).into());
                     sum.add(&shape, measure, 1.0, &point);
                     let mut products = [[0.0; 4]; 4];
-                    for point in resistance.touching(&profile).iter().flat_map(|part| points_on(part, g)) {
-                        let (by_position, by_rate) = resistance.tangent(profile.at(point.x), rates.at(point.x));
-                        let scale = -(by_position * weights.u + by_rate * weights.v) * point.weight * length;
-                        let value = Shape::at(point.x).scaled(length).value;
-                        (0..4).for_each(|k| (0..4).for_each(|l| products[k][l] += scale * shape.value[k] * value[l]));
+                    for point in touching.iter().flat_map(|part| points_on(part, g)) {
+                        let scale = stiffness(profile.at(point.x), rates.at(point.x)) * point.weight * length;
+                        add_product(&mut products, scale, &shape.value, &Shape::at(point.x).scaled(length).value);
                     }
                     sum.add_products(&products, &(change.by_push * normal.transpose()).into());
                 }
@@ -190,6 +199,13 @@ impl Ground {
     /// Unstretched length of element `e` in contact [m].
     pub fn touching_length(&self, table: &Table, u: &Field, e: usize) -> f64 {
         self.near(table, u, e).map_or(0.0, |(_, profile)| self.resistance[e].touching(&profile).length() * table.length_of(e))
+    }
+}
+
+/// products[k][l] += scale a_k b_l.
+fn add_product(products: &mut [[f64; 4]; 4], scale: f64, a: &[f64; 4], b: &[f64; 4]) {
+    for k in 0..4 {
+        (0..4).for_each(|l| products[k][l] += scale * a[k] * b[l]);
     }
 }
 

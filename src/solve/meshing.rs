@@ -9,7 +9,7 @@ use crate::rod::physics;
 use crate::rod::state::State;
 use crate::scene::types::{Line, Motion, SAME_PLACE, Scene, Surface};
 use crate::sea::waves::Waves;
-use crate::solve::newton::motion;
+use crate::solve::outputs;
 use crate::solve::start::{Bounds, Frame};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -108,8 +108,7 @@ pub fn catenaries(scene: &Scene, line: &Line) -> Vec<Vec<Sample>> {
 /// The shape of a line in equilibrium; at a joint at which something acts both sides of the kink are there.
 pub fn shape_of(line: &dyn discrete::Line, state: &State) -> Vec<Sample> {
     let (mesh, u) = (line.mesh(), &state.u);
-    let mut forces = vec![Vector3::zeros(); mesh.nodes()];
-    line.node_forces(&motion(state), &mut forces);
+    let forces = outputs::node_forces(line, state);
     let mut shape = Vec::new();
     for (e, element) in mesh.elements.iter().enumerate().filter(|(_, element)| !element.is_joint()) {
         let carried = line.touching_length(u, e) > 0.5 * element.length;

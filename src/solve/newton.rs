@@ -154,11 +154,7 @@ impl Newton {
 
     /// Solves with the factor at hand: b becomes the solution; prescribed unknowns stay zero.
     pub fn solve_linear(&self, line: &dyn Line, b: &mut Field) {
-        for &(node, component) in line.fixed() {
-            b.component_mut(component)[node] = 0.0;
-        }
-        let stride = b.stride();
-        self.factor.solve(b.data_mut(), stride);
+        solve_free(&self.factor, line, b);
     }
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
@@ -228,10 +224,8 @@ impl Newton {
         for _ in 0..DAMPED {
             self.factor(line, &motion(trial), weights, None)?;
             self.effort.iterations += 1;
-            let mut increment = std::mem::replace(&mut self.increment, Field::new(0));
-            increment.copy_from(&self.residual);
-            self.solve_linear(line, &mut increment);
-            self.increment = increment;
+            self.increment.copy_from(&self.residual);
+            solve_free(&self.factor, line, &mut self.increment);
             let (size, node) = self.size(weights.u, criteria.length);
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node });
@@ -258,9 +252,7 @@ impl Newton {
     fn find_increment(&mut self, line: &dyn Line, trial: &State) {
         self.effort.iterations += 1;
         line.residual(&motion(trial), &mut self.increment);
-        let mut increment = std::mem::replace(&mut self.increment, Field::new(0));
-        self.solve_linear(line, &mut increment);
-        self.increment = increment;
+        solve_free(&self.factor, line, &mut self.increment);
     }
 
     /// Moves a state by `factor` times the increment.
@@ -288,6 +280,15 @@ impl Newton {
         }
         largest
     }
+}
+
+/// Solves for the unknowns that are free: b becomes the solution; prescribed unknowns are zero in it.
+pub fn solve_free(factor: &Factor<COMPONENTS>, line: &dyn Line, b: &mut Field) {
+    for &(node, component) in line.fixed() {
+        b.component_mut(component)[node] = 0.0;
+    }
+    let stride = b.stride();
+    factor.solve(b.data_mut(), stride);
 }
 
 /// The motion of a state.

@@ -8,7 +8,7 @@ use crate::sea::clock::Clock;
 use crate::solve::adams_moulton::AdamsMoulton;
 use crate::solve::esdirk::{ARK3, Esdirk};
 use crate::solve::generalized_alpha::GeneralizedAlpha;
-use crate::solve::motion::Path;
+use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Newton, Stall, motion};
 use crate::solve::tangent::{LinearStage, SolvedStage};
 
@@ -64,14 +64,19 @@ impl Bench<'_> {
     /// Sets a state to a time, its fairlead where the path has it then, and locked nodes where their locks have them.
     pub fn prescribe(&self, state: &mut State, clock: Clock) {
         state.clock = clock;
+        let at = self.path.at(clock.now);
         for (order, field) in [&mut state.u, &mut state.v, &mut state.a].into_iter().enumerate() {
-            self.prescribe_order(order, field, clock);
+            self.put(order, field, clock, &at);
         }
     }
 
     /// The same for positions (order 0), velocities (1) or accelerations (2) alone.
     pub fn prescribe_order(&self, order: usize, field: &mut Field, clock: Clock) {
-        let (last, at) = (self.line.last(), self.path.at(clock.now));
+        self.put(order, field, clock, &self.path.at(clock.now));
+    }
+
+    fn put(&self, order: usize, field: &mut Field, clock: Clock, at: &Kinematics) {
+        let last = self.line.last();
         let prescribed = [at.position, at.velocity, at.acceleration][order];
         for &(_, component) in self.line.fixed().iter().filter(|(node, component)| *node == last && *component < 3) {
             field.component_mut(component)[last] = prescribed[component];

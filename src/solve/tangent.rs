@@ -8,7 +8,7 @@ use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor};
 use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
-use crate::solve::newton::{Stall, motion};
+use crate::solve::newton::{Stall, motion, solve_free};
 use nalgebra::SVector;
 
 /// A stage as it was solved.
@@ -84,9 +84,7 @@ impl LinearStage {
                 x.component_mut(c)[node] += f[c];
             }
         }
-        line.fixed().iter().for_each(|&(node, component)| x.component_mut(component)[node] = 0.0);
-        let stride = x.stride();
-        self.factor.solve(x.data_mut(), stride);
+        solve_free(&self.factor, line, &mut x);
         trial.u.add(-self.weights.u, &x);
         trial.v.add(-self.weights.v, &x);
         trial.a.add(-self.weights.a, &x);
