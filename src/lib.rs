@@ -44,6 +44,7 @@ pub mod scene {
 
 /// The discrete line: elements and the loads on them. No time steps, no files.
 pub mod rod {
+    pub mod awash;
     pub mod bending;
     pub mod body;
     pub mod catenary;

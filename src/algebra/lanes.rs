@@ -314,6 +314,12 @@ impl<F: Real> Triple<F> {
         Triple { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 
+    /// Sum of the vectors in all lanes.
+    #[inline(always)]
+    pub fn total(self) -> Triple<f64> {
+        Triple { x: self.x.total(), y: self.y.total(), z: self.z.total() }
+    }
+
     /// Components in order.
     #[inline(always)]
     pub fn components(self) -> [F; 3] {

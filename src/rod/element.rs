@@ -236,6 +236,17 @@ impl Ends<f64> {
         Cubic(self.control_values(direction))
     }
 
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn splat<F: Real>(&self, cpu: F::Cpu) -> Ends<F> {
+        Ends {
+            a: Triple::splat(cpu, &self.a.into()),
+            da: Triple::splat(cpu, &self.da.into()),
+            b: Triple::splat(cpu, &self.b.into()),
+            db: Triple::splat(cpu, &self.db.into()),
+        }
+    }
+
     /// Height (third component) as a cubic.
     pub fn height(&self) -> Cubic {
         Cubic::hermite(self.a.z, self.da.z, self.b.z, self.db.z)
@@ -259,6 +270,12 @@ impl<F: Real> Ends<F> {
     #[inline(always)]
     pub fn combine(&self, n: &[f64; 4]) -> Triple<F> {
         self.a.scale_add(n[0], self.da.scale_add(n[1], self.b.scale_add(n[2], self.db.scale(n[3]))))
+    }
+
+    /// Value where the shape functions are `n` in each lane (unit length).
+    #[inline(always)]
+    pub fn combine_lanes(&self, n: &[F; 4]) -> Triple<F> {
+        self.a.mul_add(n[0], self.da.mul_add(n[1], self.b.mul_add(n[2], self.db * n[3])))
     }
 
     /// Bézier control values of the component along a vector: the curve lies between the least and the greatest of them.

@@ -4,6 +4,7 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::Triple;
+use crate::rod::awash::Surface;
 use crate::rod::bending::Bending;
 use crate::rod::body::Body;
 use crate::rod::element::{self, Motion, Table, Weights};
@@ -15,7 +16,7 @@ use crate::rod::morison::Water;
 use crate::rod::seabed::Bed;
 use crate::rod::state::Field;
 use crate::rod::stretch::Stretch;
-use crate::rod::touching::{Ground, Surface};
+use crate::rod::touching::Ground;
 use nalgebra::Vector3;
 use std::marker::PhantomData;
 use std::ops::AddAssign;

@@ -37,6 +37,20 @@ pub struct Coefficients<F> {
     pub buoyancy: F,
 }
 
+impl Coefficients<f64> {
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn splat<F: Real>(&self, cpu: F::Cpu) -> Coefficients<F> {
+        Coefficients {
+            drag_normal: F::splat(cpu, self.drag_normal),
+            drag_tangential: F::splat(cpu, self.drag_tangential),
+            added_normal: F::splat(cpu, self.added_normal),
+            added_tangential: F::splat(cpu, self.added_tangential),
+            buoyancy: F::splat(cpu, self.buoyancy),
+        }
+    }
+}
+
 /// Motion of a point of the line.
 #[derive(Debug, Clone, Copy)]
 pub struct PointMotion<F> {

@@ -4,6 +4,7 @@
 //! compiled into its loop.
 
 use crate::algebra::sinusoid::Sinusoid;
+use crate::rod::awash::Surface;
 use crate::rod::bending::{Bending, Flexible, Stiff};
 use crate::rod::body::Body;
 use crate::rod::elasticity::{Hooke, Tabulated};
@@ -14,7 +15,7 @@ use crate::rod::mesh::Mesh;
 use crate::rod::morison::{NoWater, Sea, Still, Water};
 use crate::rod::seabed::{Plane, Resistance};
 use crate::rod::stretch::{Exact, Report, Stretch};
-use crate::rod::touching::{Ground, Surface};
+use crate::rod::touching::Ground;
 use crate::scene::types::{self, Environment, Scene};
 use crate::sea::current::Current;
 use crate::sea::waves::Waves;

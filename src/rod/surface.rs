@@ -11,12 +11,35 @@
 //! integrated over the parts below +d/2, cut at -d/2, which are found exactly. (Taking a dry share off the force on the whole
 //! element would be shorter, but its error can have the sign of a negative drag.)
 
+use crate::algebra::lanes::Real;
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::Shape;
 use crate::rod::element::Ends;
 use crate::rod::morison::Water;
 use crate::sea::clock::Clock;
 use nalgebra::Vector3;
+
+/// Most parts of an element that differ in how wet they are.
+pub const MOST_PARTS: usize = 12;
+
+/// Hermite shape functions of unit length and their slopes at x.
+#[inline(always)]
+pub fn shapes<F: Real>(x: F) -> ([F; 4], [F; 4]) {
+    let y = -x + 1.0;
+    let (xx, xy) = (x * x, x * y);
+    let b = xx * (x * -2.0 + 3.0);
+    let turn = xy * 6.0;
+    ([-b + 1.0, xy * y, b, -(xy * x)], [-turn, y * (x * -3.0 + 1.0), turn, x * (x * 3.0 + -2.0)])
+}
+
+/// Value of a cubic at x.
+#[inline(always)]
+pub fn height_at<F: Real>(cubic: &Cubic, x: F) -> F {
+    let b = &cubic.0;
+    let y = -x + 1.0;
+    let (low, high) = (y.scale_add(b[0], x * (3.0 * b[1])), x.scale_add(b[3], y * (3.0 * b[2])));
+    (y * y).mul_add(low, x * x * high)
+}
 
 /// Height of an element above the surface of the waves [m].
 pub fn above_waves<W: Water>(u: &Ends<f64>, water: &W, clock: &Clock) -> Cubic {
@@ -33,7 +56,7 @@ pub fn wet_parts(height: &Cubic, diameter: f64) -> impl Iterator<Item = Interval
     let depth = Cubic(height.0.map(|z| -z));
     let awash = depth.parts_above(-half);
     let under = depth.parts_above(half);
-    let mut parts = [None; 12];
+    let mut parts = [None; MOST_PARTS];
     let mut count = 0;
     let mut push = |from: f64, to: f64| {
         if to > from && count < parts.len() {
