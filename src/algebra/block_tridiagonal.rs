@@ -1,10 +1,12 @@
 //! Block-tridiagonal systems in O(N): D_i x_i + U_i x_{i+1} + L_{i-1} x_{i-1} = b_i with B×B blocks.
 //!
-//! Block elimination from the first block to the last. The factor keeps E_i = D_i⁻¹, G_i = D_i⁻¹ U_i and H_i = L_i D_i⁻¹, so that
-//! a solution costs three small products per block: y_{i+1} = b_{i+1} - H_i y_i, then x_i = E_i y_i - G_i x_{i+1}.
+//! Block elimination from both ends to a block in the middle: two chains that do not wait for each other, so that the processor works
+//! on both at a time. The factor keeps E_i = D_i⁻¹ and, with j the neighbour towards the middle, A_ij the block that couples row i with
+//! unknown j, G_i = D_i⁻¹ A_ij and H_i = A_ji D_i⁻¹, so that a solution costs three small products per block:
+//! b_j becomes b_j - H_i b_i, then x_i = E_i b_i - G_i x_j.
 //!
 //! Two neighbours i, i+1 may be *tied*: the first half of their unknowns is the same (two slopes at one position). Then the
-//! second half of block i is condensed into block i+1, and the same two recursions hold with other E, G, H.
+//! second half of block i is condensed into block i+1, and the same two recursions hold with other E, G, H. The middle lies behind all ties.
 
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real};
 use nalgebra::{SMatrix, SVector};
@@ -34,6 +36,8 @@ pub struct Factor<const B: usize> {
     back: Vec<Columns<B>>,
     /// -H_i.
     forward: Vec<Columns<B>>,
+    /// The block that is eliminated last.
+    middle: usize,
     processor: Arch,
 }
 
@@ -205,7 +209,7 @@ impl<const B: usize> Factor<B> {
     pub fn new(n: usize) -> Self {
         const { assert!(B <= MOST_LANES) };
         let zeros = || vec![Columns([[0.0; MOST_LANES]; B]); n];
-        Factor { inverse: zeros(), back: zeros(), forward: zeros(), processor: Arch::new() }
+        Factor { inverse: zeros(), back: zeros(), forward: zeros(), middle: 0, processor: Arch::new() }
     }
 
     /// Factors a matrix. On an error the factor must not be used.
@@ -230,42 +234,59 @@ impl<const B: usize> WithSimd for Elimination<'_, B> {
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> Result<(), Singular> {
-        let Elimination { factor: Factor { inverse, back, forward, .. }, a } = self;
-        let n = a.diagonal.len();
-        let mut diagonal = Columns::of(&a.diagonal[0]);
-        for i in 0..n {
-            let tied = i + 1 < n && a.tied[i];
-            let mut upper = Columns([[0.0; MOST_LANES]; B]);
-            let mut lower = upper.clone();
-            let mut next = upper.clone();
-            if i + 1 < n {
-                (upper, lower, next) = (Columns::of(&a.upper[i]), Columns::of(&a.lower[i]), Columns::of(&a.diagonal[i + 1]));
+        let Elimination { factor: Factor { inverse, back, forward, middle, .. }, a } = self;
+        let last = a.diagonal.len() - 1;
+        *middle = last / 2;
+        for (i, tied) in a.tied.iter().enumerate() {
+            if *tied {
+                *middle = (*middle).max(i + 1);
             }
-            if tied {
+        }
+        let mut diagonal = Columns::of(&a.diagonal[0]);
+        for i in 0..*middle {
+            let (mut upper, mut lower) = (Columns::of(&a.upper[i]), Columns::of(&a.lower[i]));
+            let mut next = Columns::of(&a.diagonal[i + 1]);
+            if a.tied[i] {
                 condense(&mut diagonal, &mut upper, &mut lower, &mut next);
             }
             if !diagonal.invert(cpu) {
                 return Err(Singular { index: i });
             }
-            if tied {
+            if a.tied[i] {
                 // The first half is solved for in the next block.
                 (0..B / 2).for_each(|r| diagonal.0[r][r] = 0.0);
             }
-            if i + 1 < n {
-                back[i] = diagonal.minus_product(cpu, &upper);
-                forward[i] = lower.minus_product(cpu, &diagonal);
-                inverse[i] = diagonal;
-                diagonal = lower.product(cpu, &back[i], &next);
-            } else {
-                inverse[i] = diagonal.clone();
-            }
-            if tied {
+            back[i] = diagonal.minus_product(cpu, &upper);
+            forward[i] = lower.minus_product(cpu, &diagonal);
+            inverse[i] = diagonal;
+            diagonal = lower.product(cpu, &back[i], &next);
+            if a.tied[i] {
                 for r in 0..B / 2 {
                     back[i].0[r][r] = 1.0;
                     forward[i].0[r][r] = 1.0;
                 }
             }
         }
+        let mut centre = diagonal;
+        let mut diagonal = Columns::of(&a.diagonal[last]);
+        for i in (*middle + 1..=last).rev() {
+            let (upper, lower) = (Columns::of(&a.upper[i - 1]), Columns::of(&a.lower[i - 1]));
+            if !diagonal.invert(cpu) {
+                return Err(Singular { index: i });
+            }
+            back[i] = diagonal.minus_product(cpu, &lower);
+            forward[i] = upper.minus_product(cpu, &diagonal);
+            inverse[i] = diagonal;
+            let next = if i - 1 == *middle { centre.clone() } else { Columns::of(&a.diagonal[i - 1]) };
+            diagonal = upper.product(cpu, &back[i], &next);
+            if i - 1 == *middle {
+                centre = diagonal.clone();
+            }
+        }
+        if !centre.invert(cpu) {
+            return Err(Singular { index: *middle });
+        }
+        inverse[*middle] = centre;
         Ok(())
     }
 }
@@ -304,20 +325,54 @@ impl<const B: usize> WithSimd for Solution<'_, B> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) {
         let Solution { factor, b, stride } = self;
-        let n = factor.inverse.len();
-        let none = [0.0; MOST_LANES];
-        let mut y = gather::<B>(b, stride, 0);
-        for i in 1..n {
-            y = factor.forward[i - 1].multiply_add(cpu, &y, &gather::<B>(b, stride, i));
-            scatter::<B>(b, stride, i, &y);
+        let (middle, last) = (factor.middle, factor.inverse.len() - 1);
+        let (mut low, mut high) = (gather::<B>(b, stride, 0), gather::<B>(b, stride, last));
+        for k in 0..middle.max(last - middle) {
+            if k < middle {
+                low = factor.eliminate(cpu, b, stride, &low, k, k + 1);
+            }
+            if k < last - middle {
+                high = factor.eliminate(cpu, b, stride, &high, last - k, last - k - 1);
+            }
         }
-        let mut x = factor.inverse[n - 1].multiply_add(cpu, &y, &none);
-        scatter::<B>(b, stride, n - 1, &x);
-        for i in (0..n - 1).rev() {
-            let own = factor.inverse[i].multiply_add(cpu, &gather::<B>(b, stride, i), &none);
-            x = factor.back[i].multiply_add(cpu, &x, &own);
-            scatter::<B>(b, stride, i, &x);
+        low = factor.inverse[middle].multiply_add(cpu, &gather::<B>(b, stride, middle), &[0.0; MOST_LANES]);
+        scatter::<B>(b, stride, middle, &low);
+        high = low;
+        for k in 1..=middle.max(last - middle) {
+            if k <= middle {
+                low = factor.substitute(cpu, b, stride, &low, middle - k);
+            }
+            if k <= last - middle {
+                high = factor.substitute(cpu, b, stride, &high, middle + k);
+            }
         }
+    }
+}
+
+impl<const B: usize> Factor<B> {
+    /// Takes block `from`, whose right-hand side is `y`, out of the row of its neighbour `to`; returns the right-hand side there.
+    #[inline(always)]
+    fn eliminate<V: Simd>(
+        &self,
+        cpu: V,
+        b: &mut [f64],
+        stride: usize,
+        y: &[f64; MOST_LANES],
+        from: usize,
+        to: usize,
+    ) -> [f64; MOST_LANES] {
+        let y = self.forward[from].multiply_add(cpu, y, &gather::<B>(b, stride, to));
+        scatter::<B>(b, stride, to, &y);
+        y
+    }
+
+    /// Block `i` of the solution from that of its neighbour towards the middle.
+    #[inline(always)]
+    fn substitute<V: Simd>(&self, cpu: V, b: &mut [f64], stride: usize, x: &[f64; MOST_LANES], i: usize) -> [f64; MOST_LANES] {
+        let own = self.inverse[i].multiply_add(cpu, &gather::<B>(b, stride, i), &[0.0; MOST_LANES]);
+        let x = self.back[i].multiply_add(cpu, x, &own);
+        scatter::<B>(b, stride, i, &x);
+        x
     }
 }
 

@@ -63,7 +63,7 @@ const PER_WAVE: f64 = 5.0;
 /// Longest element at the surface of waves, times their wave number; it may grow as e^(-kz/2).
 const IN_WAVES: f64 = 0.8;
 /// Largest ratio of neighbouring element lengths.
-const GROWTH: f64 = 3.0;
+const GROWTH: f64 = 2.5;
 
 /// Wanted element lengths along the line, from samples of the line in several positions of its fairlead.
 pub fn stations(rules: &Rules, positions: &[Vec<Sample>]) -> Vec<Station> {

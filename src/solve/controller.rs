@@ -60,8 +60,11 @@ pub struct Failure {
     pub stall: Option<Stall>,
 }
 
-/// After a rejected step this many are taken by the L-stable method: what rings there, dies away.
-const GUARDED_STEPS: u32 = 128;
+/// After a step whose error was more than allowed by a scheme that is not L-stable, this many are taken by one that is: what rings there
+/// dies away.
+const GUARDED_STEPS: u32 = 256;
+/// Error of a step over the allowed one that is still accepted.
+const ACCEPTED: f64 = 1.5;
 /// Halvings of a step before giving up.
 const HALVINGS: i32 = 24;
 
@@ -116,20 +119,21 @@ impl Controller {
             let recorded = if let Stages::Record(kept) = &bench.stages { kept.len() } else { 0 };
             let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };
             let order = scheme.error_order();
+            let guard = if scheme.is_l_stable() && !guarded { 0 } else { GUARDED_STEPS };
             self.next.holds.copy_from(&moment.state.holds);
             let outcome = scheme.step(bench, moment, h, &mut self.next).map(|error| error / demands.error);
-            let resolved = |ratio: f64| ratio <= 1.2 || (!controlled || h <= demands.finest_step) && ratio.is_finite();
+            let resolved = |ratio: f64| ratio <= ACCEPTED || (!controlled || h <= demands.finest_step) && ratio.is_finite();
             match outcome {
                 Ok(ratio) if resolved(ratio) => {
                     self.tally.steps += 1;
                     self.tally.guarded += usize::from(guarded);
-                    let rough = controlled && ratio > 1.2;
+                    let rough = controlled && ratio > ACCEPTED;
                     self.tally.unresolved += usize::from(rough);
                     self.tally.error = self.tally.error.max(ratio);
                     self.accept(moment, h, if count == 1.0 { until } else { moment.state.clock.now + h });
                     let State { u, v, holds, .. } = &mut moment.state;
                     bench.line.hold(u, v, holds);
-                    moment.guard = if rough { GUARDED_STEPS } else { moment.guard.saturating_sub(1) };
+                    moment.guard = if controlled && ratio > 1.0 { guard } else { moment.guard.saturating_sub(1) };
                     moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
                     halved = false;
                     accepted(moment, &Leg { h, guarded });
@@ -137,7 +141,7 @@ impl Controller {
                 Ok(ratio) if ratio.is_finite() => {
                     bench.forget_stages(recorded);
                     self.tally.rejected += 1;
-                    moment.guard = GUARDED_STEPS;
+                    moment.guard = guard;
                     moment.step = (h * (0.9 * ratio.powf(-1.0 / order)).clamp(0.2, 0.9)).max(0.9 * demands.finest_step);
                 }
                 failed => {

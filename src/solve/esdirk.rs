@@ -136,4 +136,8 @@ impl Scheme for Esdirk {
     fn error_order(&self) -> f64 {
         self.tableau.error_order
     }
+
+    fn is_l_stable(&self) -> bool {
+        true
+    }
 }

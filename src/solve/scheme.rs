@@ -137,6 +137,10 @@ pub trait Scheme: Send {
     fn step(&mut self, bench: &mut Bench, from: &Moment, h: f64, next: &mut State) -> Result<f64, Stall>;
     /// Order of the error estimate in h.
     fn error_order(&self) -> f64;
+    /// Whether what rings dies away by itself (L-stable).
+    fn is_l_stable(&self) -> bool {
+        false
+    }
 }
 
 /// The scheme of a name, with room for `nodes` nodes.

@@ -100,15 +100,15 @@ pub struct Simulation {
 }
 
 /// Local error of the positions allowed in a step, as a share of tolerance × (tension / stiffness of the fairlead). Below a tolerance of
-/// 1e-3 it shrinks with its power 0.7 besides, since the global error goes with about the local one to the power 2/3.
+/// 1e-3 it shrinks with its power 0.8 besides, since the global error goes with about the local one to the power 2/3.
 /// Calibrated on the built-in case, where it gives about half the tolerance in the end tension.
-const ERROR_SHARE: f64 = 1.1e-2;
+const ERROR_SHARE: f64 = 1.5e-2;
 /// The finest step for the sake of the error, as a share of the longest.
 const FINEST_SHARE: f64 = 4.0e-3;
 /// Nor is a step made finer for that sake than this share of the time that an axial wave needs to cross an element.
 const CROSSING_SHARE: f64 = 0.1;
 /// Newton increments count as converged at this share of the tolerance.
-const NEWTON_SHARE: f64 = 3.0e-3;
+const NEWTON_SHARE: f64 = 1.0e-2;
 /// And at most at this share of the displacement at which friction breaks away.
 const BREAKAWAY_SHARE: f64 = 0.05;
 /// A line is at rest where no tension along it can change by more than this share of the tolerance times the end tension.
@@ -321,7 +321,7 @@ impl Simulation {
     fn begin_anew(&mut self, smooth: Option<&dyn Line>) {
         let line = smooth.unwrap_or(self.line.as_ref());
         let tension_length = tension_length(line, &mut self.newton, &self.moment.state);
-        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.7).min(1.0) * self.tolerance * tension_length;
+        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.8).min(1.0) * self.tolerance * tension_length;
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.work, self.fresh, self.resting, self.last) = (0.0, true, false, LastStep::default());
