@@ -4,6 +4,7 @@ mod support;
 
 use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::algebra::sinusoid::Sinusoid;
+use moorline::rod::awash::Surface;
 use moorline::rod::body::Body;
 use moorline::rod::element::{Motion, Weights};
 use moorline::rod::friction::Friction;
@@ -13,7 +14,7 @@ use moorline::rod::mesh::{Mesh, Part, Properties};
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::seabed::{Plane, Resistance};
 use moorline::rod::state::{COMPONENTS, Field, State};
-use moorline::rod::touching::{Ground, Surface};
+use moorline::rod::touching::Ground;
 use moorline::scene::read;
 use moorline::scene::types::{CurrentPoint, Stretch};
 use moorline::sea::current::Current;
