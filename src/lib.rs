@@ -25,6 +25,7 @@ pub mod error;
 pub mod algebra {
     pub mod banded;
     pub mod block_tridiagonal;
+    pub mod dimension;
     pub mod lanes;
     pub mod polynomial;
     pub mod shape;
@@ -99,6 +100,7 @@ pub mod solve {
     pub mod motion;
     pub mod newton;
     pub mod outputs;
+    pub mod plane;
     pub mod relaxation;
     pub mod rest;
     pub mod scheme;
@@ -108,6 +110,7 @@ pub mod solve {
     pub mod start;
     pub mod statics;
     pub mod tangent;
+    pub mod unknowns;
 }
 
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.

@@ -158,6 +158,7 @@ fn line_of(physics: &Physics) -> Box<dyn Line> {
             Ground { plane, resistance: vec![resistance; mesh.elements.len()], friction }
         }),
         surface: physics.surface.then(|| Surface::new(&mesh)),
+        planar: false,
     };
     physics::build(mesh.clone(), around, Supports::default())
 }

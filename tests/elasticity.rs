@@ -100,7 +100,7 @@ fn tangent_of_a_table_is_the_change_of_the_residual() {
         let pressures = Some(Pressures { outer: 100.0, inner: 20.0, inner_at_zero: 5.0 });
         let elasticities = vec![Elasticity { table, pressures, strained: true }];
         let mesh = Mesh { elasticities, ..Mesh::new(vec![material(4.0e7, 10.0, 50.0)], &[vec![10.0; 3]]) };
-        let around = Surroundings { stretch, current: None, waves: None, ground: None, surface: None };
+        let around = Surroundings { stretch, current: None, waves: None, ground: None, surface: None, planar: false };
         let line = physics::build(mesh, around, Supports::default());
         let mut state = State::new(4);
         for node in 0..4 {

@@ -3,9 +3,11 @@
 //! A kernel is written once over `Real`. `pulp::Arch` looks at the processor when the program starts and runs the kernel with as many
 //! lanes as it has: `Lanes<V3>` (AVX2 and FMA, 4), one on any other.
 
+use crate::algebra::dimension::{Across, Dimension, Spatial};
 use nalgebra::Vector3;
 use pulp::Simd;
 use std::fmt::Debug;
+use std::marker::PhantomData;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// Arrays that are read in batches are padded to a multiple of this many numbers, the most that any processor takes at once.
@@ -29,6 +31,8 @@ pub trait Real:
 {
     /// Proof that the processor can do it.
     type Cpu: Copy;
+    /// What a vector has across the plane of a planar line: one more such number, or nothing where all happens in that plane.
+    type Across: Across<Self>;
     /// How many numbers it holds.
     const LANES: usize;
     /// The same number in every lane.
@@ -94,6 +98,7 @@ pub trait Real:
 
 impl Real for f64 {
     type Cpu = ();
+    type Across = f64;
     const LANES: usize = 1;
     #[inline(always)]
     fn splat(_: (), x: f64) -> f64 {
@@ -141,24 +146,26 @@ impl Real for f64 {
     }
 }
 
-/// As many numbers as a register of the processor holds.
+/// As many numbers as a register of the processor holds; vectors of them have as many components as `D` says.
 #[derive(Clone, Copy, Debug)]
-pub struct Lanes<V: Simd> {
+pub struct Lanes<V: Simd, D: Dimension = Spatial> {
     cpu: V,
     x: V::f64s,
+    dimension: PhantomData<D>,
 }
 
-impl<V: Simd> Real for Lanes<V> {
+impl<V: Simd, D: Dimension> Real for Lanes<V, D> {
     type Cpu = V;
+    type Across = D::Across<Self>;
     const LANES: usize = V::F64_LANES;
     #[inline(always)]
     fn splat(cpu: V, x: f64) -> Self {
-        Lanes { cpu, x: cpu.splat_f64s(x) }
+        Lanes { cpu, x: cpu.splat_f64s(x), dimension: PhantomData }
     }
     #[inline(always)]
     fn load(cpu: V, from: &[f64], at: usize) -> Self {
         let (rows, _) = V::as_simd_f64s(&from[at..at + V::F64_LANES]);
-        Lanes { cpu, x: rows[0] }
+        Lanes { cpu, x: rows[0], dimension: PhantomData }
     }
     #[inline(always)]
     fn store(self, to: &mut [f64], at: usize) {
@@ -200,7 +207,7 @@ impl<V: Simd> Real for Lanes<V> {
     }
 }
 
-impl<V: Simd> Add for Lanes<V> {
+impl<V: Simd, D: Dimension> Add for Lanes<V, D> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -208,7 +215,7 @@ impl<V: Simd> Add for Lanes<V> {
     }
 }
 
-impl<V: Simd> Sub for Lanes<V> {
+impl<V: Simd, D: Dimension> Sub for Lanes<V, D> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -216,7 +223,7 @@ impl<V: Simd> Sub for Lanes<V> {
     }
 }
 
-impl<V: Simd> Mul for Lanes<V> {
+impl<V: Simd, D: Dimension> Mul for Lanes<V, D> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -224,7 +231,7 @@ impl<V: Simd> Mul for Lanes<V> {
     }
 }
 
-impl<V: Simd> Add<f64> for Lanes<V> {
+impl<V: Simd, D: Dimension> Add<f64> for Lanes<V, D> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: f64) -> Self {
@@ -232,7 +239,7 @@ impl<V: Simd> Add<f64> for Lanes<V> {
     }
 }
 
-impl<V: Simd> Mul<f64> for Lanes<V> {
+impl<V: Simd, D: Dimension> Mul<f64> for Lanes<V, D> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
@@ -240,7 +247,7 @@ impl<V: Simd> Mul<f64> for Lanes<V> {
     }
 }
 
-impl<V: Simd> Neg for Lanes<V> {
+impl<V: Simd, D: Dimension> Neg for Lanes<V, D> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -248,13 +255,13 @@ impl<V: Simd> Neg for Lanes<V> {
     }
 }
 
-/// A vector in space, in every lane.
+/// A vector, in every lane: in space, or in the x–z plane.
 #[derive(Clone, Copy, Debug)]
-pub struct Triple<F> {
+pub struct Triple<F: Real> {
     /// First component.
     pub x: F,
-    /// Second component.
-    pub y: F,
+    /// Second component, if there is one.
+    pub y: F::Across,
     /// Third component.
     pub z: F,
 }
@@ -263,31 +270,31 @@ impl<F: Real> Triple<F> {
     /// The same vector in every lane.
     #[inline(always)]
     pub fn splat(cpu: F::Cpu, v: &Vector3<f64>) -> Self {
-        Triple { x: F::splat(cpu, v.x), y: F::splat(cpu, v.y), z: F::splat(cpu, v.z) }
+        Triple { x: F::splat(cpu, v.x), y: F::Across::across(cpu, v.y), z: F::splat(cpu, v.z) }
     }
 
     /// Consecutive vectors from place `at` of three rows.
     #[inline(always)]
     pub fn load(cpu: F::Cpu, [x, y, z]: [&[f64]; 3], at: usize) -> Self {
-        Triple { x: F::load(cpu, x, at), y: F::load(cpu, y, at), z: F::load(cpu, z, at) }
+        Triple { x: F::load(cpu, x, at), y: F::Across::read(cpu, y, at), z: F::load(cpu, z, at) }
     }
 
     /// Zero.
     #[inline(always)]
     pub fn zero(cpu: F::Cpu) -> Self {
-        Triple { x: F::splat(cpu, 0.0), y: F::splat(cpu, 0.0), z: F::splat(cpu, 0.0) }
+        Triple { x: F::splat(cpu, 0.0), y: F::Across::across(cpu, 0.0), z: F::splat(cpu, 0.0) }
     }
 
     /// Scalar product.
     #[inline(always)]
     pub fn dot(self, other: Self) -> F {
-        self.x.mul_add(other.x, self.y.mul_add(other.y, self.z * other.z))
+        self.x.mul_add(other.x, self.y.product(other.y, self.z * other.z))
     }
 
     /// Scalar product with one vector.
     #[inline(always)]
     pub fn along(self, v: &Vector3<f64>) -> F {
-        self.x.scale_add(v.x, self.y.scale_add(v.y, self.z * v.z))
+        self.x.scale_add(v.x, self.y.along(v.y, self.z * v.z))
     }
 
     /// Length, never exactly zero, so that a quotient by it stays finite: sqrt(v·v + 1e-200).
@@ -299,31 +306,31 @@ impl<F: Real> Triple<F> {
     /// self·factor + term.
     #[inline(always)]
     pub fn mul_add(self, factor: F, term: Self) -> Self {
-        Triple { x: self.x.mul_add(factor, term.x), y: self.y.mul_add(factor, term.y), z: self.z.mul_add(factor, term.z) }
+        Triple { x: self.x.mul_add(factor, term.x), y: self.y.times_plus(factor, term.y), z: self.z.mul_add(factor, term.z) }
     }
 
     /// self·factor + term.
     #[inline(always)]
     pub fn scale_add(self, factor: f64, term: Self) -> Self {
-        Triple { x: self.x.scale_add(factor, term.x), y: self.y.scale_add(factor, term.y), z: self.z.scale_add(factor, term.z) }
+        Triple { x: self.x.scale_add(factor, term.x), y: self.y.scaled_plus(factor, term.y), z: self.z.scale_add(factor, term.z) }
     }
 
     /// self·factor.
     #[inline(always)]
     pub fn scale(self, factor: f64) -> Self {
-        Triple { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+        Triple { x: self.x * factor, y: self.y.scale(factor), z: self.z * factor }
     }
 
     /// Sum of the vectors in all lanes.
     #[inline(always)]
     pub fn total(self) -> Triple<f64> {
-        Triple { x: self.x.total(), y: self.y.total(), z: self.z.total() }
+        Triple { x: self.x.total(), y: self.y.sum_up(), z: self.z.total() }
     }
 
-    /// Components in order.
+    /// Components in order; zero where there is none.
     #[inline(always)]
-    pub fn components(self) -> [F; 3] {
-        [self.x, self.y, self.z]
+    pub fn components(self, cpu: F::Cpu) -> [F; 3] {
+        [self.x, self.y.value(cpu), self.z]
     }
 }
 
@@ -331,7 +338,7 @@ impl<F: Real> Add for Triple<F> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Triple { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+        Triple { x: self.x + other.x, y: self.y.plus(other.y), z: self.z + other.z }
     }
 }
 
@@ -339,7 +346,7 @@ impl<F: Real> Sub for Triple<F> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Triple { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+        Triple { x: self.x - other.x, y: self.y.minus(other.y), z: self.z - other.z }
     }
 }
 
@@ -347,7 +354,7 @@ impl<F: Real> Mul<F> for Triple<F> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: F) -> Self {
-        Triple { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+        Triple { x: self.x * factor, y: self.y.times(factor), z: self.z * factor }
     }
 }
 
@@ -355,7 +362,7 @@ impl<F: Real> Neg for Triple<F> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Triple { x: -self.x, y: -self.y, z: -self.z }
+        Triple { x: -self.x, y: self.y.negative(), z: -self.z }
     }
 }
 

@@ -2,26 +2,27 @@
 //!
 //! Written without closures: those are compiled for any processor, and would cost a call for every instruction of a wider one.
 
+use crate::algebra::dimension::Across;
 use crate::algebra::lanes::{Real, Triple};
 use nalgebra::Matrix3;
 
 /// A 3×3 matrix in every lane, by columns.
 #[derive(Clone, Copy, Debug)]
-pub struct Tensor<F>(pub [Triple<F>; 3]);
+pub struct Tensor<F: Real>(pub [Triple<F>; 3]);
 
 impl<F: Real> Tensor<F> {
     /// c·1.
     #[inline(always)]
     pub fn isotropic(cpu: F::Cpu, c: F) -> Self {
-        let zero = F::splat(cpu, 0.0);
-        Tensor([Triple { x: c, y: zero, z: zero }, Triple { x: zero, y: c, z: zero }, Triple { x: zero, y: zero, z: c }])
+        let zero = Triple::zero(cpu);
+        Tensor([Triple { x: c, ..zero }, Triple { y: F::Across::of(c), ..zero }, Triple { z: c, ..zero }])
     }
 
     /// self + a bᵀ.
     #[inline(always)]
     pub fn add_outer(self, a: Triple<F>, b: Triple<F>) -> Self {
         let [x, y, z] = self.0;
-        Tensor([a.mul_add(b.x, x), a.mul_add(b.y, y), a.mul_add(b.z, z)])
+        Tensor([a.mul_add(b.x, x), b.y.outer(a, y), a.mul_add(b.z, z)])
     }
 
     /// self·factor + term.

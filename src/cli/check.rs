@@ -6,6 +6,7 @@ use crate::report::schedule::Schedule;
 use crate::report::units::{count, sim_time, wall_time};
 use crate::scene::read::Loaded;
 use crate::scene::types::{Motion, Scene};
+use crate::solve::motion::Path;
 use crate::solve::simulation::{Decision, Simulation};
 use std::fmt::Write;
 
@@ -21,8 +22,8 @@ const DEFAULT_TOLERANCE: f64 = 1.0e-3;
 /// Prints the check; a bad scene has failed before this prints anything.
 pub fn check(arguments: &SceneArguments) -> Result<(), Stop> {
     let loaded = arguments.load()?;
-    let lines: Vec<Simulation> =
-        (0..loaded.scene.lines.len()).map(|index| Simulation::new(&loaded.scene, index)).collect::<Result<_, _>>()?;
+    let line = |index| Simulation::on_path(&loaded.scene, index, Some(&Path::of_scene(&loaded, index)));
+    let lines: Vec<Simulation> = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, _>>()?;
     let mut text = header(&loaded);
     for (line, simulation) in loaded.scene.lines.iter().zip(&lines) {
         let _ = writeln!(text, "\nLine \"{}\": {} m", on_terminal(&line.name), line.length());

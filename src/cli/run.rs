@@ -118,7 +118,10 @@ struct MovingLines {
 
 impl MovingLines {
     fn new(loaded: &Loaded) -> Result<MovingLines, Error> {
-        let line = |index| Ok((Simulation::new(&loaded.scene, index)?, motion::Path::of_scene(loaded, index)));
+        let line = |index| {
+            let path = motion::Path::of_scene(loaded, index);
+            Ok((Simulation::on_path(&loaded.scene, index, Some(&path))?, path))
+        };
         let lines = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, Error>>()?;
         let dynamics = loaded.deck.as_ref().is_some_and(|deck| deck.job == Job::Dynamics);
         Ok(MovingLines { lines, given: loaded.state.clone().filter(|_| dynamics) })

@@ -170,16 +170,16 @@ impl<W: Water> WithSimd for WetShare<'_, W> {
         let mut sum = [Triple::<Lanes<V>>::zero(cpu); 4];
         let mut first = 0;
         while first < self.points.count {
-            let (x, weight) = (Lanes::load(cpu, &self.points.x, first), Lanes::load(cpu, &self.points.weight, first));
+            let (x, weight) = (Lanes::<V>::load(cpu, &self.points.x, first), Lanes::<V>::load(cpu, &self.points.weight, first));
             let (value, slope) = surface::shapes(x);
             let place = u.combine_lanes(&value);
             let height = if W::WAVES { surface::height_at(self.height, x) } else { place.z };
-            let wet = (height * -self.per_diameter + 0.5).max(Lanes::splat(cpu, 0.0)).min(Lanes::splat(cpu, 1.0));
+            let wet = (height * -self.per_diameter + 0.5).max(Lanes::<V>::splat(cpu, 0.0)).min(Lanes::<V>::splat(cpu, 1.0));
             let mut force = Triple::zero(cpu);
             if W::PRESENT {
                 let point = PointMotion {
                     clock: self.clock,
-                    direction: Direction::of(u.combine_lanes(&slope) * Lanes::splat(cpu, self.per_length)),
+                    direction: Direction::of(u.combine_lanes(&slope) * Lanes::<V>::splat(cpu, self.per_length)),
                     place,
                     velocity: v.combine_lanes(&value),
                     acceleration: a.combine_lanes(&value),

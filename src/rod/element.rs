@@ -7,6 +7,7 @@
 //! R residual [N] (positions) and [N·m] (slopes): the force that must be applied from outside for the motion to be as it is.
 //! N_k Hermite shape functions, X load per length [N/m], n axial force [N], f force of the water [N/m].
 
+use crate::algebra::dimension::{Across, Dimension, Spatial};
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
 use crate::algebra::polynomial::Cubic;
 use crate::algebra::shape::{GAUSS3, SHAPES3};
@@ -217,7 +218,7 @@ impl<F: Real> Batch<'_, F> {
 
 /// One vector at each end of an element and its rate by x = s/L: values a, b and slopes times length.
 #[derive(Debug, Clone, Copy)]
-pub struct Ends<F> {
+pub struct Ends<F: Real> {
     a: Triple<F>,
     da: Triple<F>,
     b: Triple<F>,
@@ -303,7 +304,7 @@ impl<F: Real> Ends<F> {
 
 /// What acts on the ends of elements, as far as the fast loop goes.
 #[derive(Debug, Clone, Copy)]
-pub struct Acting<F> {
+pub struct Acting<F: Real> {
     /// Forces on positions, and moments on slopes times length [N].
     pub ends: [Triple<F>; 4],
     /// Positive where the bed is still to be added, because it may touch a part of the element.
@@ -398,7 +399,7 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
 }
 
 /// Adds the residual of every element to `out`, and calls `partly` for each that is still to be looked at, with what there may be.
-pub fn residual<S: Stretch, W: Water, B: Bending>(
+pub fn residual<S: Stretch, W: Water, B: Bending, D: Dimension>(
     table: &Table,
     water: &W,
     bed: Option<&Bed>,
@@ -407,24 +408,26 @@ pub fn residual<S: Stretch, W: Water, B: Bending>(
     partly: impl FnMut(usize, bool, bool, &mut Field),
 ) {
     let source = Source::new(table, water, bed, motion);
-    table.processor.dispatch(Residual::<S, W, B, _> { table, source, out, partly, laws: PhantomData });
+    table.processor.dispatch(Residual::<S, W, B, D, _> { table, source, out, partly, laws: PhantomData });
 }
 
-struct Residual<'a, S, W, B, P> {
+struct Residual<'a, S, W, B, D, P> {
     table: &'a Table,
     source: Source<'a, W>,
     out: &'a mut Field,
     partly: P,
-    laws: PhantomData<(S, B)>,
+    laws: PhantomData<(S, B, D)>,
 }
 
-impl<S: Stretch, W: Water, B: Bending, P: FnMut(usize, bool, bool, &mut Field)> WithSimd for Residual<'_, S, W, B, P> {
+impl<S: Stretch, W: Water, B: Bending, D: Dimension, P: FnMut(usize, bool, bool, &mut Field)> WithSimd
+    for Residual<'_, S, W, B, D, P>
+{
     type Output = ();
 
     #[inline(always)]
     fn with_simd<V: Simd>(mut self, cpu: V) {
         for e in (0..self.table.len()).step_by(V::F64_LANES) {
-            let acting = batch_forces::<Lanes<V>, S, W, B>(cpu, &self.source, e);
+            let acting = batch_forces::<Lanes<V, D>, S, W, B>(cpu, &self.source, e);
             let length = Lanes::load(cpu, self.source.table[Property::Length as usize], e);
             add_to_nodes(cpu, self.out, e, length, &acting.ends);
             if acting.touching.any_positive() || acting.dry.any_positive() {
@@ -470,8 +473,8 @@ impl<S: Stretch, W: Water, B: Bending, P: FnMut(usize, bool, bool, &mut [Vector3
     fn with_simd<V: Simd>(mut self, cpu: V) {
         let mut rows = [[0.0; MOST_LANES]; 8];
         for e in (0..self.table.len()).step_by(V::F64_LANES) {
-            let acting = batch_forces::<Lanes<V>, S, W, B>(cpu, &self.source, e);
-            let ([x, y, z], first) = (acting.ends[2].components(), acting.ends[0].components());
+            let acting = batch_forces::<Lanes<V, Spatial>, S, W, B>(cpu, &self.source, e);
+            let ([x, y, z], first) = (acting.ends[2].components(cpu), acting.ends[0].components(cpu));
             for (row, lanes) in rows.iter_mut().zip([x, y, z, first[0], first[1], first[2], acting.touching, acting.dry]) {
                 lanes.store(row, 0);
             }
@@ -499,13 +502,13 @@ pub fn scatter_to_nodes(out: &mut Field, e: usize, length: f64, sum: &[Triple<f6
 #[inline(always)]
 fn add_to_nodes<F: Real>(cpu: F::Cpu, out: &mut Field, e: usize, length: F, sum: &[Triple<F>; 4]) {
     let stride = out.stride();
-    let [a, da, b, db] = [sum[0], sum[1] * length, sum[2], sum[3] * length].map(Triple::components);
     let data = out.data_mut();
-    for c in 0..3 {
-        a[c].add_to(cpu, data, c * stride + e);
-        da[c].add_to(cpu, data, (c + 3) * stride + e);
-        b[c].add_to(cpu, data, c * stride + e + 1);
-        db[c].add_to(cpu, data, (c + 3) * stride + e + 1);
+    let ends = [(sum[0], 0, e), (sum[1] * length, 3, e), (sum[2], 0, e + 1), (sum[3] * length, 3, e + 1)];
+    for (force, component, node) in ends {
+        let at = component * stride + node;
+        force.x.add_to(cpu, data, at);
+        force.y.write_more(cpu, data, at + stride);
+        force.z.add_to(cpu, data, at + 2 * stride);
     }
 }
 
@@ -530,7 +533,7 @@ impl<W: Water> WithSimd for Inertia<'_, W> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) {
         for e in (0..self.table.len()).step_by(V::F64_LANES) {
-            let table = Batch::<Lanes<V>> { cpu, rows: &self.properties, e };
+            let table = Batch::<Lanes<V, Spatial>> { cpu, rows: &self.properties, e };
             let (length, measure, mass) = (table.get(Property::Length), table.get(Property::Measure), table.get(Property::Mass));
             let k = table.coefficients();
             let (u, x) = (Ends::load(cpu, &self.u, e, length), Ends::load(cpu, &self.x, e, length));

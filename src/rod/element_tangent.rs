@@ -7,6 +7,7 @@
 //! X_r, X_r′ weighted changes of the load with the motion of a point and with its slope, n_r′ of the axial force with slope and rate.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::algebra::dimension::{Across, Dimension};
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real};
 use crate::algebra::shape::{GAUSS3, SHAPES3, Shape};
 use crate::algebra::tensor::Tensor;
@@ -19,7 +20,7 @@ use std::marker::PhantomData;
 
 /// Tangent of the loads at one point, already weighted: δX = load·δr + turning·δr′, δn = axial·δr′, δ(EI r″) = bending·δr″.
 #[derive(Debug, Clone, Copy)]
-pub struct PointTangent<F> {
+pub struct PointTangent<F: Real> {
     /// Change of X with position, velocity and acceleration.
     pub load: Tensor<F>,
     /// Change of X with the slope.
@@ -40,7 +41,7 @@ impl PointTangent<f64> {
 
 /// Tangent of elements, by the end values r_i, L p_i, r_j, L p_j: [l][k] couples end value k with end value l.
 #[derive(Debug, Clone, Copy)]
-pub struct ElementTangent<F>([[Tensor<F>; 4]; 4]);
+pub struct ElementTangent<F: Real>([[Tensor<F>; 4]; 4]);
 
 impl<F: Real> ElementTangent<F> {
     /// Zero.
@@ -65,7 +66,7 @@ impl<F: Real> ElementTangent<F> {
                 if let Some(bending) = bending {
                     let bending = bending * (shape.curvature[k] * shape.curvature[l]);
                     block.0[0].x = block.0[0].x + bending;
-                    block.0[1].y = block.0[1].y + bending;
+                    block.0[1].y = block.0[1].y.plus(F::Across::of(bending));
                     block.0[2].z = block.0[2].z + bending;
                 }
             }
@@ -94,9 +95,9 @@ impl<F: Real> ElementTangent<F> {
                     _ => self.0[l][k].times(square),
                 };
                 for (c, column) in scaled.0.into_iter().enumerate() {
-                    for (r, entry) in column.components().into_iter().enumerate() {
-                        entry.store(&mut entries[3 * c + r], 0);
-                    }
+                    column.x.store(&mut entries[3 * c], 0);
+                    column.y.write(&mut entries[3 * c + 1], 0);
+                    column.z.store(&mut entries[3 * c + 2], 0);
                 }
                 for lane in 0..F::LANES.min(count - first) {
                     let e = first + lane;
@@ -118,7 +119,7 @@ impl<F: Real> ElementTangent<F> {
 }
 
 /// Adds the tangent of every element to the matrix. `geometric[3e + g]`, where given, is the tension of the geometric part.
-pub fn tangent<S: Stretch, W: Water, B: Bending>(
+pub fn tangent<S: Stretch, W: Water, B: Bending, D: Dimension>(
     table: &Table,
     water: &W,
     at: &Motion,
@@ -127,19 +128,19 @@ pub fn tangent<S: Stretch, W: Water, B: Bending>(
     matrix: &mut BlockTridiagonal<6>,
 ) {
     let source = Source::new(table, water, None, at);
-    table.processor.dispatch(Assembly::<S, W, B> { table, source, weights, geometric, matrix, laws: PhantomData });
+    table.processor.dispatch(Assembly::<S, W, B, D> { table, source, weights, geometric, matrix, laws: PhantomData });
 }
 
-struct Assembly<'a, S, W, B> {
+struct Assembly<'a, S, W, B, D> {
     table: &'a Table,
     source: Source<'a, W>,
     weights: &'a Weights,
     geometric: Option<&'a [f64]>,
     matrix: &'a mut BlockTridiagonal<6>,
-    laws: PhantomData<(S, B)>,
+    laws: PhantomData<(S, B, D)>,
 }
 
-impl<S: Stretch, W: Water, B: Bending> WithSimd for Assembly<'_, S, W, B> {
+impl<S: Stretch, W: Water, B: Bending, D: Dimension> WithSimd for Assembly<'_, S, W, B, D> {
     type Output = ();
 
     #[inline(always)]
@@ -154,7 +155,7 @@ impl<S: Stretch, W: Water, B: Bending> WithSimd for Assembly<'_, S, W, B> {
                 }
             }
             let geometric = geometric.map(|_| &tensions);
-            let sum = batch_tangent::<V, S, W, B>(cpu, &source, e, weights, geometric);
+            let sum = batch_tangent::<V, S, W, B, D>(cpu, &source, e, weights, geometric);
             let length = Lanes::load(cpu, source.table[Property::Length as usize], e);
             cpu.vectorize(Scatter { sum: &sum, matrix, first: e, length, count });
         }
@@ -163,14 +164,14 @@ impl<S: Stretch, W: Water, B: Bending> WithSimd for Assembly<'_, S, W, B> {
 
 /// Tangent of the elements from `e` on.
 #[inline(always)]
-fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending>(
+fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending, D: Dimension>(
     cpu: V,
     source: &Source<W>,
     e: usize,
     weights: &Weights,
     geometric: Option<&[[f64; MOST_LANES]; 3]>,
-) -> ElementTangent<Lanes<V>> {
-    let table = Batch::<Lanes<V>> { cpu, rows: &source.table, e };
+) -> ElementTangent<Lanes<V, D>> {
+    let table = Batch::<Lanes<V, D>> { cpu, rows: &source.table, e };
     let (length, per_length, measure) =
         (table.get(Property::Length), table.get(Property::PerLength), table.get(Property::Measure));
     let (axial, coefficients) = (table.axial(), table.coefficients());
@@ -186,7 +187,7 @@ fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending>(
         let direction = Direction::of(u.combine(&shape.slope) * per_length);
         let rate = v.combine(&shape.slope) * per_length;
         let geometric = geometric.map(|tensions| Lanes::load(cpu, &tensions[g], 0));
-        let curved = with_curve::<Lanes<V>, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
+        let curved = with_curve::<Lanes<V, D>, S>(axial, cpu, source.curves, e, &direction, u.combine(&shape.value).z);
         let mut point = PointTangent {
             load: Tensor::isotropic(cpu, mass),
             turning: Tensor::isotropic(cpu, Lanes::splat(cpu, 0.0)),
@@ -211,15 +212,15 @@ fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending>(
 }
 
 /// `ElementTangent::add`, compiled once for a processor and not for every kind of line.
-struct Addition<'a, V: Simd> {
-    sum: &'a mut ElementTangent<Lanes<V>>,
+struct Addition<'a, V: Simd, D: Dimension> {
+    sum: &'a mut ElementTangent<Lanes<V, D>>,
     shape: &'a Shape,
-    measure: Lanes<V>,
-    per_length: Lanes<V>,
-    point: &'a PointTangent<Lanes<V>>,
+    measure: Lanes<V, D>,
+    per_length: Lanes<V, D>,
+    point: &'a PointTangent<Lanes<V, D>>,
 }
 
-impl<V: Simd> NullaryFnOnce for Addition<'_, V> {
+impl<V: Simd, D: Dimension> NullaryFnOnce for Addition<'_, V, D> {
     type Output = ();
 
     #[inline(always)]
@@ -229,15 +230,15 @@ impl<V: Simd> NullaryFnOnce for Addition<'_, V> {
 }
 
 /// `ElementTangent::add_to`, likewise.
-struct Scatter<'a, V: Simd> {
-    sum: &'a ElementTangent<Lanes<V>>,
+struct Scatter<'a, V: Simd, D: Dimension> {
+    sum: &'a ElementTangent<Lanes<V, D>>,
     matrix: &'a mut BlockTridiagonal<6>,
     first: usize,
-    length: Lanes<V>,
+    length: Lanes<V, D>,
     count: usize,
 }
 
-impl<V: Simd> NullaryFnOnce for Scatter<'_, V> {
+impl<V: Simd, D: Dimension> NullaryFnOnce for Scatter<'_, V, D> {
     type Output = ();
 
     #[inline(always)]

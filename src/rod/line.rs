@@ -3,6 +3,7 @@
 //! Below the seam all is monomorphised for the physics that the scene needs; above it nothing is generic.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::algebra::dimension::Dimension;
 use crate::algebra::lanes::Triple;
 use crate::rod::awash::Surface;
 use crate::rod::bending::Bending;
@@ -31,6 +32,8 @@ pub trait Line: Send + Sync {
     fn is_pinned(&self, node: usize) -> bool {
         (0..3).all(|c| self.fixed().contains(&(node, c)))
     }
+    /// Whether the line knows motion in the x–z plane alone.
+    fn is_planar(&self) -> bool;
     /// Sets positions (order 0), velocities (1) or accelerations (2) of nodes along locked axes to what they are held to at a time.
     fn place(&self, order: usize, field: &mut Field, time: f64);
     /// Weight of what hangs on the line, and dead forces at its nodes [N]: sizes of forces, for comparison.
@@ -68,7 +71,7 @@ pub trait Line: Send + Sync {
 }
 
 /// A line with a law of extension, water and bending chosen at load time.
-pub struct Rod<S, W, B> {
+pub struct Rod<S, W, B, D> {
     mesh: Mesh,
     table: Table,
     water: W,
@@ -79,7 +82,7 @@ pub struct Rod<S, W, B> {
     /// Joints that transmit a moment, and their rotational stiffness [N·m].
     stiff_joints: Vec<(usize, f64)>,
     supports: Supports,
-    laws: PhantomData<(S, B)>,
+    laws: PhantomData<(S, B, D)>,
 }
 
 /// What holds a line and what pulls at its nodes besides its own loads.
@@ -95,7 +98,7 @@ pub struct Supports {
     pub holds: Vec<Hold>,
 }
 
-impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
+impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
         let table = Table::new(&mesh, surface.as_ref().map(|_| water.lowest_surface()));
@@ -136,13 +139,17 @@ impl<S: Stretch, W: Water, B: Bending> Rod<S, W, B> {
     }
 }
 
-impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
+impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
     fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
     fn fixed(&self) -> &[(usize, usize)] {
         &self.supports.fixed
+    }
+
+    fn is_planar(&self) -> bool {
+        D::PLANAR
     }
 
     fn place(&self, order: usize, field: &mut Field, time: f64) {
@@ -162,7 +169,7 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
                 element::scatter_to_nodes(out, e, self.table.length_of(e), &part);
             }
         };
-        element::residual::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
         for &(e, kappa) in &self.stiff_joints {
             let (p, q) = (at.u.slope(e), at.u.slope(e + 1));
             out.set_slope(e, &(out.slope(e) + joint::moment(kappa, &p, &q)));
@@ -183,7 +190,7 @@ impl<S: Stretch, W: Water, B: Bending> Line for Rod<S, W, B> {
 
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
         matrix.clear();
-        element_tangent::tangent::<S, W, B>(&self.table, &self.water, at, weights, geometric, matrix);
+        element_tangent::tangent::<S, W, B, D>(&self.table, &self.water, at, weights, geometric, matrix);
         for e in 0..self.table.len() {
             if let Some(ground) = &self.ground {
                 ground.tangent(&self.table, at, e, weights, matrix);

@@ -53,7 +53,7 @@ impl Coefficients<f64> {
 
 /// Motion of a point of the line.
 #[derive(Debug, Clone, Copy)]
-pub struct PointMotion<F> {
+pub struct PointMotion<F: Real> {
     /// When.
     pub clock: Clock,
     /// Direction of the line.
@@ -68,7 +68,7 @@ pub struct PointMotion<F> {
 
 /// Tangent of f, weighted.
 #[derive(Debug, Clone, Copy)]
-pub struct WaterTangent<F> {
+pub struct WaterTangent<F: Real> {
     /// Change with position, velocity and acceleration together [N/m²].
     pub by_motion: Tensor<F>,
     /// Change with r′ [N/m].
@@ -77,7 +77,7 @@ pub struct WaterTangent<F> {
 
 /// Motion of the water past a point of the line.
 #[derive(Debug, Clone, Copy)]
-pub struct Past<F> {
+pub struct Past<F: Real> {
     /// V - ṙ [m/s].
     pub velocity: Triple<F>,
     /// V̇ [m/s²]; zero and not looked at where there are no waves.

@@ -3,6 +3,7 @@
 //! A ladder of small functions: each decides one thing from the scene and hands a type on. What a scene does not need is not
 //! compiled into its loop.
 
+use crate::algebra::dimension::{Dimension, Planar, Spatial};
 use crate::algebra::sinusoid::Sinusoid;
 use crate::rod::awash::Surface;
 use crate::rod::bending::{Bending, Flexible, Stiff};
@@ -33,6 +34,8 @@ pub struct Surroundings {
     pub ground: Option<Ground>,
     /// The water surface, where it is pierced.
     pub surface: Option<Surface>,
+    /// The line stays in a plane of constant y, and so do all forces on it: see `knows_plane` for what may be so.
+    pub planar: bool,
 }
 
 /// One decision and its reason, for `check`.
@@ -56,6 +59,7 @@ impl Surroundings {
             waves: Waves::of(&scene.environment),
             ground: Some(ground(&scene.environment, mesh)),
             surface: (scene.environment.surface == types::Surface::Pierced).then(|| Surface::new(mesh)),
+            planar: false,
         }
     }
 }
@@ -81,12 +85,32 @@ impl Surroundings {
 /// The line of a mesh with the physics that it needs.
 pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
     let special = mesh.is_special();
+    if surroundings.planar && knows_plane(&surroundings, &mesh) {
+        let stiff = mesh.sections.iter().any(|section| section.ei > 0.0);
+        return if stiff {
+            in_plane::<Stiff>(mesh, surroundings, supports)
+        } else {
+            in_plane::<Flexible>(mesh, surroundings, supports)
+        };
+    }
     // Lines with tables or pressures are few: they carry the terms of bending whether they need them or not.
     match (surroundings.stretch, special) {
         (types::Stretch::Exact, false) => with_bending::<Exact<Hooke>>(mesh, surroundings, supports),
         (types::Stretch::Report, false) => with_bending::<Report<Hooke>>(mesh, surroundings, supports),
         (types::Stretch::Exact, true) => with_water::<Exact<Tabulated>, Stiff>(mesh, surroundings, supports),
         (types::Stretch::Report, true) => with_water::<Report<Tabulated>, Stiff>(mesh, surroundings, supports),
+    }
+}
+
+/// Whether there is a planar loop for this: for the usual lines, which stretch by Hooke's law, in still water or in a current.
+pub fn knows_plane(around: &Surroundings, mesh: &Mesh) -> bool {
+    around.stretch == types::Stretch::Exact && !mesh.is_special() && around.waves.is_none()
+}
+
+fn in_plane<B: Bending>(mesh: Mesh, around: Surroundings, supports: Supports) -> Box<dyn Line> {
+    match around.current.clone() {
+        Some(current) => finish::<Exact<Hooke>, Current, B, Planar>(mesh, current, around, supports),
+        None => finish::<Exact<Hooke>, Still, B, Planar>(mesh, Still, around, supports),
     }
 }
 
@@ -101,18 +125,23 @@ fn with_bending<S: Stretch>(mesh: Mesh, surroundings: Surroundings, supports: Su
 fn with_water<S: Stretch, B: Bending>(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
     if let Some(waves) = surroundings.waves.clone() {
         let current = surroundings.current.clone().unwrap_or_default();
-        finish::<S, Sea, B>(mesh, Sea { waves, current }, surroundings, supports)
+        finish::<S, Sea, B, Spatial>(mesh, Sea { waves, current }, surroundings, supports)
     } else if !feels_water(&mesh, &supports) {
-        finish::<S, NoWater, B>(mesh, NoWater, surroundings, supports)
+        finish::<S, NoWater, B, Spatial>(mesh, NoWater, surroundings, supports)
     } else if let Some(current) = surroundings.current.clone() {
-        finish::<S, Current, B>(mesh, current, surroundings, supports)
+        finish::<S, Current, B, Spatial>(mesh, current, surroundings, supports)
     } else {
-        finish::<S, Still, B>(mesh, Still, surroundings, supports)
+        finish::<S, Still, B, Spatial>(mesh, Still, surroundings, supports)
     }
 }
 
-fn finish<S: Stretch, W: Water, B: Bending>(mesh: Mesh, water: W, around: Surroundings, supports: Supports) -> Box<dyn Line> {
-    Box::new(Rod::<S, W, B>::new(mesh, water, around.ground, around.surface, supports))
+fn finish<S: Stretch, W: Water, B: Bending, D: Dimension>(
+    mesh: Mesh,
+    water: W,
+    around: Surroundings,
+    supports: Supports,
+) -> Box<dyn Line> {
+    Box::new(Rod::<S, W, B, D>::new(mesh, water, around.ground, around.surface, supports))
 }
 
 /// Whether any section or body has drag or added mass.

@@ -182,10 +182,10 @@ impl<const N: usize> WithSimd for Sum<'_, N> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) {
         for at in (0..self.to.len()).step_by(V::F64_LANES) {
-            let zero = Lanes::splat(cpu, 0.0);
-            let mut sum = if self.own { Lanes::load(cpu, self.to, at) } else { zero };
+            let zero = Lanes::<V>::splat(cpu, 0.0);
+            let mut sum = if self.own { Lanes::<V>::load(cpu, self.to, at) } else { zero };
             for (factor, term) in self.terms {
-                sum = Lanes::load(cpu, term, at).scale_add(factor, sum);
+                sum = Lanes::<V>::load(cpu, term, at).scale_add(factor, sum);
             }
             sum.store(self.to, at);
         }
@@ -207,15 +207,15 @@ impl WithSimd for Retreat<'_> {
         let (stride, x) = (self.increment.stride, self.increment.data.as_slice());
         let State { u, v, a, .. } = self.state;
         let [c_u, c_v, c_a] = self.factors;
-        let (mut largest, mut finite) = (Lanes::splat(cpu, 0.0), Lanes::splat(cpu, 0.0));
+        let (mut largest, mut finite) = (Lanes::<V>::splat(cpu, 0.0), Lanes::<V>::splat(cpu, 0.0));
         for (part, scale) in self.scales.into_iter().enumerate() {
             for at in (3 * part * stride..3 * (part + 1) * stride).step_by(V::F64_LANES) {
-                let x = Lanes::load(cpu, x, at);
+                let x = Lanes::<V>::load(cpu, x, at);
                 largest = largest.max((x * scale).max(-x * scale));
                 finite = x.scale_add(0.0, finite); // 0·x is NaN for all that is not finite.
-                x.scale_add(-c_u, Lanes::load(cpu, &u.data, at)).store(&mut u.data, at);
-                x.scale_add(-c_v, Lanes::load(cpu, &v.data, at)).store(&mut v.data, at);
-                x.scale_add(-c_a, Lanes::load(cpu, &a.data, at)).store(&mut a.data, at);
+                x.scale_add(-c_u, Lanes::<V>::load(cpu, &u.data, at)).store(&mut u.data, at);
+                x.scale_add(-c_v, Lanes::<V>::load(cpu, &v.data, at)).store(&mut v.data, at);
+                x.scale_add(-c_a, Lanes::<V>::load(cpu, &a.data, at)).store(&mut a.data, at);
             }
         }
         let mut lanes = [0.0; MOST_LANES];

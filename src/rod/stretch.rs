@@ -70,7 +70,7 @@ fn with_slack_force<F: Real>(n: Triple<F>, cpu: F::Cpu, law: &Axial<F>, strain: 
 
 /// Direction of the line at a point.
 #[derive(Debug, Clone, Copy)]
-pub struct Direction<F> {
+pub struct Direction<F: Real> {
     /// r′ [-].
     pub slope: Triple<F>,
     /// |r′| [-].

@@ -42,6 +42,11 @@ impl Current {
         self.lowest == Vector3::zeros() && self.layers.iter().all(|layer| layer.shear == Vector3::zeros())
     }
 
+    /// Whether the water flows across the x–z plane anywhere.
+    pub fn flows_across(&self) -> bool {
+        self.lowest.y != 0.0 || self.layers.iter().any(|layer| layer.shear.y != 0.0)
+    }
+
     /// Velocity at height z [m/s].
     pub fn velocity(&self, z: f64) -> Vector3<f64> {
         self.added_to((), z, Triple::zero(())).into()

@@ -14,6 +14,7 @@
 //! significant wave height; what lies deeper than the longest component reaches is not looked at. Sine, cosine and exponential are polynomials, good to 3e-11, because they then run on several
 //! numbers at once: on several places for the element loop, on several components for a single place.
 
+use crate::algebra::dimension::Across;
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
 use crate::algebra::shape::Shape;
 use crate::scene::types::{self, Environment};
@@ -38,7 +39,7 @@ pub struct Wave {
 
 /// Motion of the water.
 #[derive(Debug, Clone, Copy)]
-pub struct Flow<F> {
+pub struct Flow<F: Real> {
     /// v [m/s].
     pub velocity: Triple<F>,
     /// ∂v/∂t [m/s²].
@@ -216,7 +217,7 @@ impl Waves {
         if easing == 0.0 || !(place.z + -self.floor()).any_positive() {
             return None;
         }
-        let rows = self.sums_at(F::LANES, clock.now, easing, [place.x.lanes(), place.y.lanes(), place.z.lanes()]);
+        let rows = self.sums_at(F::LANES, clock.now, easing, [place.x.lanes(), place.y.value(cpu).lanes(), place.z.lanes()]);
         let [vx, vy, vz, ax, ay, az] = &rows;
         let (v, a) = (Triple::load(cpu, [vx, vy, vz], 0), Triple::load(cpu, [ax, ay, az], 0));
         Some(Flow { velocity: v.scale(easing), acceleration: v.scale_add(rise, a.scale(easing)) })
@@ -274,7 +275,7 @@ impl Waves {
     #[inline(always)]
     fn angle<F: Real, const PLACES: bool>(&self, cpu: F::Cpu, time: f64, place: &Triple<F>, n: usize) -> (F, F) {
         let still = self.get::<F, PLACES>(cpu, Row::Frequency, n).scale_add(-time, self.get::<F, PLACES>(cpu, Row::Phase, n));
-        let across = self.get::<F, PLACES>(cpu, Row::Y, n).mul_add(place.y, still);
+        let across = self.get::<F, PLACES>(cpu, Row::Y, n).mul_add(place.y.value(cpu), still);
         cos_sin(cpu, self.get::<F, PLACES>(cpu, Row::X, n).mul_add(place.x, across))
     }
 
@@ -417,7 +418,7 @@ mod tests {
     const G: f64 = 9.80665;
 
     fn place(x: f64, y: f64, z: f64) -> Triple<f64> {
-        Triple { x, y, z }
+        Triple { x, y: F::Across::of(y), z }
     }
 
     fn late(now: f64) -> Clock {
@@ -494,7 +495,7 @@ mod tests {
                 assert!((sea.elevation(&late(time), x, y) - elevation).abs() < 1e-9, "η");
                 let flow = sea.flow((), &late(time), &at).expect("in motion");
                 for c in 0..3 {
-                    let (found_v, found_a) = (flow.velocity.components()[c], flow.acceleration.components()[c]);
+                    let (found_v, found_a) = (flow.velocity.components(())[c], flow.acceleration.components(())[c]);
                     assert!((found_v - v[c]).abs() < 1e-8, "v{c} at {at:?}, t = {time}: {found_v} {}", v[c]);
                     assert!((found_a - a[c]).abs() < 1e-8, "a{c} at {at:?}, t = {time}: {found_a} {}", a[c]);
                 }
@@ -557,7 +558,7 @@ mod tests {
         for z in [-20.0, -40.0, -60.0, -90.0, -140.0, -149.0] {
             let at = place(30.0, -10.0, z);
             let (_, v, _) = exact(&waves, depth, 33.0, &at);
-            let found = sea.flow((), &late(33.0), &at).map_or([0.0; 3], |flow| flow.velocity.components());
+            let found = sea.flow((), &late(33.0), &at).map_or([0.0; 3], |flow| flow.velocity.components(()));
             for c in 0..3 {
                 assert!((found[c] - v[c]).abs() < 2e-4 * surface, "z = {z}: {found:?} {v:?}");
             }

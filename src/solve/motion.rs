@@ -97,6 +97,22 @@ impl Path {
         };
         still && (self.at(until).position - place).norm() <= slight
     }
+
+    /// Whether the fairlead's y stays exactly what it is given as, from one time to another.
+    pub fn stays_at(&self, y: f64, from: f64, until: f64) -> bool {
+        match self {
+            Path::Fixed(position) => position.y == y,
+            Path::Sinusoidal { origin, offset } => origin.y == y && offset.sine.y == 0.0 && offset.cosine.y == 0.0,
+            Path::Table(table) => {
+                let first = table.times.partition_point(|t| *t <= from).saturating_sub(1);
+                let beyond = table.times.partition_point(|t| *t < until).min(table.times.len() - 1);
+                (first..=beyond).all(|row| table.positions[row][1] == y && table.velocities[row][1] == 0.0)
+            }
+            Path::Polynomial { coefficients, .. } => {
+                coefficients.first().map_or(0.0, |c| c.y) == y && coefficients.iter().skip(1).all(|c| c.y == 0.0)
+            }
+        }
+    }
 }
 
 impl Kinematics {

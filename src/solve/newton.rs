@@ -3,11 +3,12 @@
 //! Statics, every scheme and every stage are this problem with other weights. The iteration is a modified Newton method: the factor
 //! of the tangent is kept as long as the iteration contracts well and the weights have not changed much.
 
-use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor, Singular};
+use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
 use crate::rod::element::{Motion, Weights};
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::search;
+use crate::solve::unknowns::Unknowns;
 use nalgebra::{Matrix3, SVector};
 use std::ops::AddAssign;
 
@@ -63,7 +64,7 @@ pub struct Effort {
 /// The solver of stages of one line, with its memory: matrix, factor and the rate at which it contracted last.
 pub struct Newton {
     matrix: BlockTridiagonal<COMPONENTS>,
-    factor: Factor<COMPONENTS>,
+    unknowns: Unknowns,
     factored: Option<Weights>,
     rate: f64,
     /// Whole steps failed where shortened ones did not: near a kink that the line keeps crossing.
@@ -90,7 +91,7 @@ impl Newton {
         let nodes = line.mesh().nodes();
         Newton {
             matrix: BlockTridiagonal::new(line.mesh().ties()),
-            factor: Factor::new(nodes),
+            unknowns: Unknowns::new(line),
             factored: None,
             rate: 1.0,
             rough: false,
@@ -112,11 +113,8 @@ impl Newton {
     pub fn factor(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: Option<&[f64]>) -> Result<(), Stall> {
         self.factored = None;
         line.tangent(at, weights, geometric, &mut self.matrix);
-        for &(node, component) in line.fixed() {
-            self.matrix.fix(node, component);
-        }
         self.effort.factorisations += 1;
-        self.factor.factor(&self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
+        self.unknowns.factor(line, &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
         self.factored = Some(*weights);
         Ok(())
     }
@@ -154,7 +152,7 @@ impl Newton {
 
     /// Solves with the factor at hand: b becomes the solution; prescribed unknowns stay zero.
     pub fn solve_linear(&self, line: &dyn Line, b: &mut Field) {
-        solve_free(&self.factor, line, b);
+        self.unknowns.solve(line, b);
     }
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
@@ -225,7 +223,7 @@ impl Newton {
             self.factor(line, &motion(trial), weights, None)?;
             self.effort.iterations += 1;
             self.increment.copy_from(&self.residual);
-            solve_free(&self.factor, line, &mut self.increment);
+            self.unknowns.solve(line, &mut self.increment);
             let (size, node) = self.size(weights.u, criteria.length);
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node });
@@ -252,7 +250,7 @@ impl Newton {
     fn find_increment(&mut self, line: &dyn Line, trial: &State) {
         self.effort.iterations += 1;
         line.residual(&motion(trial), &mut self.increment);
-        solve_free(&self.factor, line, &mut self.increment);
+        self.unknowns.solve(line, &mut self.increment);
     }
 
     /// Moves a state by `factor` times the increment.
@@ -280,15 +278,6 @@ impl Newton {
         }
         largest
     }
-}
-
-/// Solves for the unknowns that are free: b becomes the solution; prescribed unknowns are zero in it.
-pub fn solve_free(factor: &Factor<COMPONENTS>, line: &dyn Line, b: &mut Field) {
-    for &(node, component) in line.fixed() {
-        b.component_mut(component)[node] = 0.0;
-    }
-    let stride = b.stride();
-    factor.solve(b.data_mut(), stride);
 }
 
 /// The motion of a state.

@@ -9,7 +9,7 @@ use crate::rod::mesh::{Element, Mesh};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
-use crate::scene::state::LineState;
+use crate::scene::state::{LineState, NodeState};
 use crate::scene::types::{Scene, Scheme};
 use crate::solve::controller::{self, Controller, Demands, Failure};
 use crate::solve::line_state;
@@ -19,6 +19,7 @@ use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
 use crate::solve::outputs;
 pub use crate::solve::outputs::{NodeOutput, Outputs};
+use crate::solve::plane;
 use crate::solve::rest;
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
@@ -121,9 +122,15 @@ const MESH_SHARE: f64 = 0.3;
 const MIXED_JUMP: f64 = 1.0e-4;
 
 impl Simulation {
-    /// Line number `index` of a checked scene: meshes it and picks its physics. Where the scene leaves the mesh to the program, it
-    /// is refined until the static end tension meets the tolerance.
+    /// Line number `index` of a checked scene, for any motion of its fairlead: meshes it and picks its physics. Where the scene leaves
+    /// the mesh to the program, it is refined until the static end tension meets the tolerance.
     pub fn new(scene: &Scene, index: usize) -> Result<Simulation, Error> {
+        Simulation::on_path(scene, index, None)
+    }
+
+    /// The same for a line whose fairlead will take a path: with what this lets be left out. On another path it goes on with all that
+    /// was left out.
+    pub fn on_path(scene: &Scene, index: usize, path: Option<&Path>) -> Result<Simulation, Error> {
         let Some(line) = scene.lines.get(index) else {
             let (place, value) = (format!("lines[{index}]"), String::from("a line that is not there"));
             return Err(Error::Value {
@@ -135,7 +142,7 @@ impl Simulation {
         };
         let mut finer = 1.0;
         let mut shapes = if meshing::is_automatic(line) { meshing::catenaries(scene, line) } else { Vec::new() };
-        let mut simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
+        let mut simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
         if !meshing::is_automatic(line) {
             return Ok(simulation);
         }
@@ -143,18 +150,18 @@ impl Simulation {
             let found = simulation.shapes(&meshing::fairlead_places(scene, line));
             if !found.is_empty() {
                 shapes = found;
-                simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
+                simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
             }
         }
         let tension =
             |simulation: &mut Simulation| simulation.settle(line.fairlead.into(), 0.0).ok().map(|_| simulation.outputs().tension);
         let allowed = MESH_SHARE * scene.solver.tolerance;
         for _ in 0..3 {
-            let mut halved = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
+            let mut halved = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
             match (tension(&mut simulation), tension(&mut halved)) {
                 (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * fine => {
                     finer *= 1.5;
-                    simulation = Simulation::with_mesh(scene, index, meshing::mesh_of(scene, line, &shapes, finer))?;
+                    simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
                 }
                 (None, Some(_)) => simulation = halved,
                 _ => break,
@@ -175,7 +182,7 @@ impl Simulation {
     }
 
     /// Line number `index` of a checked scene on a given mesh.
-    fn with_mesh(scene: &Scene, index: usize, mesh: Mesh) -> Result<Simulation, Error> {
+    fn with_mesh(scene: &Scene, index: usize, path: Option<&Path>, mesh: Mesh) -> Result<Simulation, Error> {
         let solver = &scene.solver;
         let is_mixed = solver.scheme == Scheme::Cable1994;
         let mesh = if is_mixed { mesh.without_joints() } else { mesh };
@@ -185,15 +192,17 @@ impl Simulation {
             (Mixed::new(line, step), setup::decisions(scene, &mesh, step))
         });
         let (mixed, report) = mixed.unzip();
+        let mut surroundings = Surroundings::of(scene, &mesh);
         let decisions = report.unwrap_or_else(|| {
             let mut decisions = physics::decisions(scene, &mesh, &supports);
-            decisions.push(rest::decision(scene, &supports));
+            let plane = plane::decision(scene, &scene.lines[index], &surroundings, &supports, &mesh, path);
+            surroundings.planar = !plane.on;
+            decisions.extend([plane, rest::decision(scene, &supports)]);
             decisions
         });
         let (nodes, length) = (mesh.nodes(), mesh.length);
         let crossing_time = |e: &Element| e.length * (mesh.sections[e.section].mass / mesh.sections[e.section].ea).sqrt();
         let crossing = mesh.elements.iter().filter(|e| !e.is_joint()).map(crossing_time).fold(f64::INFINITY, f64::min);
-        let surroundings = Surroundings::of(scene, &mesh);
         let line = physics::build(mesh, surroundings.clone(), supports.clone());
         // A fixed step is asked for to compare: nothing but the step shall be seen in the result.
         let share = if solver.uncontrolled_step().is_some() { 1.0e-4 } else { NEWTON_SHARE };
@@ -252,6 +261,17 @@ impl Simulation {
         self.supports.holds.iter().find(|hold| hold.node == node).and_then(|hold| hold.reference).unwrap_or(pinned)
     }
 
+    /// Goes on in space from a plane that the line is about to leave.
+    fn leave_plane(&mut self) {
+        if self.line.is_planar() {
+            self.surroundings.planar = false;
+            self.line = physics::build(self.line.mesh().clone(), self.surroundings.clone(), self.supports.clone());
+            let effort = self.newton.effort;
+            self.newton = Newton::new(self.line.as_ref());
+            self.newton.effort = effort;
+        }
+    }
+
     /// From now on the work done on the vessel is summed up over the steps; unasked it stays zero, since it costs an end force in
     /// every step.
     pub fn sum_up_work(&mut self) {
@@ -261,6 +281,9 @@ impl Simulation {
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
     /// On `Err(Error::Statics)` the best state found stands, so that it can be looked at.
     pub fn settle(&mut self, fairlead: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
+        if fairlead.y != self.anchor.y {
+            self.leave_plane();
+        }
         self.moment = controller::at_rest(self.line.as_ref(), time, self.demands.max_step);
         let (anchor, fairlead) = (self.start_of(0, self.anchor), self.start_of(self.line.last(), fairlead));
         start::guess(self.line.mesh(), &self.bounds, &anchor, &fairlead, &mut self.moment.state.u);
@@ -331,6 +354,9 @@ impl Simulation {
     /// fairlead stays where it is takes no steps.
     pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
         self.check_path(until, path)?;
+        if self.line.is_planar() && !path.stays_at(self.anchor.y, self.moment.state.clock.now, until) {
+            self.leave_plane();
+        }
         self.before.moment.copy_from(&self.moment);
         (self.before.work, self.before.fresh, self.before.last) = (self.work, self.fresh, self.last);
         if let Some(mixed) = &self.mixed {
@@ -613,6 +639,10 @@ impl Simulation {
     /// laid slack and pulled tight.
     pub fn start_from(&mut self, given: &LineState) -> bool {
         let mut moment = controller::at_rest(self.line.as_ref(), given.time, self.demands.max_step);
+        let across = |node: &NodeState| [node.slope, node.velocity, node.slope_rate].iter().any(|rate| rate[1] != 0.0);
+        if given.nodes.iter().any(|node| node.position[1] != self.anchor.y || across(node)) {
+            self.leave_plane();
+        }
         let Some(tensions) = line_state::set(self.line.as_ref(), given, &mut moment.state) else { return false };
         let State { u, v, holds, .. } = &mut moment.state;
         self.line.lay(u, holds);

@@ -4,11 +4,12 @@
 //! by its linearisation: K δu + C δv + M δa = 0 about the stage as it was solved. The schemes' own code runs a second time on the
 //! changes; the choice of steps is not differentiated.
 
-use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor};
+use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
-use crate::solve::newton::{Stall, motion, solve_free};
+use crate::solve::newton::{Stall, motion};
+use crate::solve::unknowns::Unknowns;
 use nalgebra::SVector;
 
 /// A stage as it was solved.
@@ -26,7 +27,7 @@ pub struct LinearStage {
     by_position: BlockTridiagonal<COMPONENTS>,
     by_velocity: BlockTridiagonal<COMPONENTS>,
     by_acceleration: BlockTridiagonal<COMPONENTS>,
-    factor: Factor<COMPONENTS>,
+    unknowns: Unknowns,
     /// The stage, where friction has a memory.
     state: Option<State>,
 }
@@ -37,22 +38,20 @@ const SHARE: f64 = 1.0e-6;
 impl LinearStage {
     /// The linearisation of a stage.
     pub fn new(line: &dyn Line, stage: &SolvedStage) -> Result<LinearStage, Stall> {
-        let nodes = line.mesh().nodes();
         let matrix = |u, v, a| {
             let mut matrix = BlockTridiagonal::new(line.mesh().ties());
             line.tangent(&motion(&stage.state), &Weights { u, v, a }, None, &mut matrix);
             matrix
         };
         let mut whole = matrix(stage.weights.u, stage.weights.v, stage.weights.a);
-        line.fixed().iter().for_each(|&(node, component)| whole.fix(node, component));
-        let mut factor = Factor::new(nodes);
-        factor.factor(&whole).map_err(|singular| Stall::Singular { node: singular.index })?;
+        let mut unknowns = Unknowns::new(line);
+        unknowns.factor(line, &mut whole).map_err(|singular| Stall::Singular { node: singular.index })?;
         Ok(LinearStage {
             weights: stage.weights,
             by_position: matrix(1.0, 0.0, 0.0),
             by_velocity: matrix(0.0, 1.0, 0.0),
             by_acceleration: matrix(0.0, 0.0, 1.0),
-            factor,
+            unknowns,
             state: (line.holding_nodes() > 0).then(|| stage.state.clone()),
         })
     }
@@ -84,7 +83,7 @@ impl LinearStage {
                 x.component_mut(c)[node] += f[c];
             }
         }
-        solve_free(&self.factor, line, &mut x);
+        self.unknowns.solve(line, &mut x);
         trial.u.add(-self.weights.u, &x);
         trial.v.add(-self.weights.v, &x);
         trial.a.add(-self.weights.a, &x);

@@ -95,7 +95,7 @@ pub fn uniform(properties: Properties, length: f64, elements: usize) -> Mesh {
 
 /// No water, no bed, no surface.
 pub fn nothing() -> Surroundings {
-    Surroundings { stretch: types::Stretch::Exact, current: None, waves: None, ground: None, surface: None }
+    Surroundings { stretch: types::Stretch::Exact, current: None, waves: None, ground: None, surface: None, planar: false }
 }
 
 /// A flat bed at height `level`, of the same resistance everywhere, touched `onset` above its level.

@@ -41,6 +41,8 @@ impl Linearised {
 impl Simulation {
     /// Takes the steps to a time and linearises them. The simulation stays as it is.
     pub fn linearise(&mut self, until: f64, path: &Path) -> Result<Linearised, Error> {
+        // Changes may lead across the plane.
+        self.leave_plane();
         let now = self.snapshot();
         let tally = (self.controller.tally, self.newton.effort);
         let outcome = if self.mixed.is_some() {

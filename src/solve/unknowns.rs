@@ -1,0 +1,55 @@
+//! The free unknowns of a line and the factor of their matrix: all six of a node, or the four in the plane of a planar line.
+
+use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor, Singular};
+use crate::rod::line::Line;
+use crate::rod::state::{COMPONENTS, Field};
+
+/// Components of a node in the x–z plane.
+const IN_PLANE: [usize; 4] = [0, 2, 3, 5];
+
+/// The factor of a matrix of a line.
+pub enum Unknowns {
+    /// Of all components.
+    Spatial(Factor<COMPONENTS>),
+    /// Of those in the x–z plane.
+    Planar(Factor<4>),
+}
+
+impl Unknowns {
+    /// Room for the factor of a line.
+    pub fn new(line: &dyn Line) -> Unknowns {
+        let nodes = line.mesh().nodes();
+        if line.is_planar() {
+            Unknowns::Planar(Factor::new(nodes, IN_PLANE))
+        } else {
+            Unknowns::Spatial(Factor::new(nodes, std::array::from_fn(|c| c)))
+        }
+    }
+
+    /// Factors a matrix; prescribed unknowns are taken out of it.
+    pub fn factor(&mut self, line: &dyn Line, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
+        for &(node, component) in line.fixed() {
+            matrix.fix(node, component);
+        }
+        match self {
+            Unknowns::Spatial(factor) => factor.factor(matrix),
+            Unknowns::Planar(factor) => factor.factor(matrix),
+        }
+    }
+
+    /// Solves with the factor: b becomes the solution; prescribed unknowns, and those across the plane, are zero in it.
+    pub fn solve(&self, line: &dyn Line, b: &mut Field) {
+        for &(node, component) in line.fixed() {
+            b.component_mut(component)[node] = 0.0;
+        }
+        let stride = b.stride();
+        match self {
+            Unknowns::Spatial(factor) => factor.solve(b.data_mut(), stride),
+            Unknowns::Planar(factor) => {
+                b.component_mut(1).fill(0.0);
+                b.component_mut(4).fill(0.0);
+                factor.solve(b.data_mut(), stride);
+            }
+        }
+    }
+}
