@@ -112,10 +112,15 @@ impl Cubic {
 
     /// The crossing of `level`, where the signs of the control values tell that there is just one (Descartes).
     fn only_crossing(&self, level: f64) -> Option<f64> {
+        self.only_crossing_near(level, f64::NAN)
+    }
+
+    /// The same, looked for from a guess on.
+    pub fn only_crossing_near(&self, level: f64, guess: f64) -> Option<f64> {
         let shifted = Cubic(self.0.map(|value| value - level));
         let b = &shifted.0;
         let changes = (0..3).filter(|k| (b[*k] < 0.0) != (b[*k + 1] < 0.0)).count();
-        (changes == 1).then(|| shifted.bracketed_root(0.0, 1.0, b[0] < 0.0))
+        (changes == 1).then(|| shifted.bracketed_root(0.0, 1.0, b[0] < 0.0, guess))
     }
 
     /// Crossings of `level` in (0, 1) in rising order, at most 3; returns how many. Between neighbouring extrema the cubic is
@@ -134,7 +139,7 @@ impl Cubic {
             let (x0, x1) = (stations[k], stations[k + 1]);
             let (f0, f1) = (shifted.at(x0), shifted.at(x1));
             if (f0 < 0.0) != (f1 < 0.0) && count < found.len() {
-                found[count] = shifted.bracketed_root(x0, x1, f0 < 0.0);
+                found[count] = shifted.bracketed_root(x0, x1, f0 < 0.0, f64::NAN);
                 count += 1;
             }
         }
@@ -147,14 +152,18 @@ impl Cubic {
         [3.0 * (b[1] - b[0]), 3.0 * (b[2] - b[1]), 3.0 * (b[3] - b[2])]
     }
 
-    fn bracketed_root(&self, mut x0: f64, mut x1: f64, rising: bool) -> f64 {
+    /// The zero between x0 and x1, by Newton's method from a guess, or, where that lies outside, from where the chord is zero.
+    fn bracketed_root(&self, mut x0: f64, mut x1: f64, rising: bool, guess: f64) -> f64 {
         // By powers of x: less to do than by control values, and sharp enough, since all of it happens on [0, 1].
         let b = &self.0;
         let c = [b[0], 3.0 * (b[1] - b[0]), 3.0 * (b[0] - 2.0 * b[1] + b[2]), b[3] - b[0] + 3.0 * (b[1] - b[2])];
         let at = |x: f64| ((c[3] * x + c[2]) * x + c[1]) * x + c[0];
-        let (f0, f1) = (at(x0), at(x1));
-        let secant = x0 - f0 * (x1 - x0) / (f1 - f0);
-        let mut x = if secant > x0 && secant < x1 { secant } else { 0.5 * (x0 + x1) };
+        let mut x = guess;
+        if !(x > x0 && x < x1) {
+            let (f0, f1) = (at(x0), at(x1));
+            let secant = x0 - f0 * (x1 - x0) / (f1 - f0);
+            x = if secant > x0 && secant < x1 { secant } else { 0.5 * (x0 + x1) };
+        }
         for _ in 0..60 {
             let f = at(x);
             if (f < 0.0) == rising {

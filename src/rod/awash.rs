@@ -50,7 +50,7 @@ impl Surface {
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let mut points = Points::default();
-        for part in surface::wet_parts(&height, self.diameter[e]) {
+        for &part in surface::wet_parts(&height, self.diameter[e]).as_slice() {
             for point in self.rule(&height, part, e) {
                 let span = part.to - part.from;
                 points.push(part.from + span * point.x, span * point.weight * length);
@@ -102,7 +102,7 @@ impl Surface {
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients(e);
         let mut sum = ElementTangent::zero(());
-        for part in surface::wet_parts(&height, self.diameter[e]) {
+        for &part in surface::wet_parts(&height, self.diameter[e]).as_slice() {
             for gauss in self.rule(&height, part, e) {
                 let x = part.from + (part.to - part.from) * gauss.x;
                 let shape = Shape::at(x);

@@ -50,30 +50,58 @@ pub fn above_waves<W: Water>(u: &Ends<f64>, water: &W, clock: &Clock) -> Cubic {
     Cubic::through([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(height))
 }
 
+/// Parts of an element, in order, with room for the most there can be.
+pub struct Parts {
+    parts: [Interval; MOST_PARTS],
+    count: usize,
+}
+
+impl Parts {
+    fn push(&mut self, from: f64, to: f64) {
+        if to > from && self.count < MOST_PARTS {
+            self.parts[self.count] = Interval { from, to };
+            self.count += 1;
+        }
+    }
+
+    /// The parts.
+    pub fn as_slice(&self) -> &[Interval] {
+        &self.parts[..self.count]
+    }
+}
+
 /// The parts of an element that are wet or awash, cut at z = -d/2, given its height above the water.
-pub fn wet_parts(height: &Cubic, diameter: f64) -> impl Iterator<Item = Interval> {
+pub fn wet_parts(height: &Cubic, diameter: f64) -> Parts {
     let half = 0.5 * diameter;
     let depth = Cubic(height.0.map(|z| -z));
+    let mut parts = Parts { parts: [Interval { from: 0.0, to: 0.0 }; MOST_PARTS], count: 0 };
+    // The usual element at the fairlead goes through the surface once, and both cuts are close together.
+    if depth.0[0] > half
+        && let Some(under) = depth.only_crossing_near(half, f64::NAN)
+    {
+        if depth.above(-half) {
+            parts.push(0.0, under);
+            parts.push(under, 1.0);
+            return parts;
+        }
+        if let Some(awash) = depth.only_crossing_near(-half, under) {
+            parts.push(0.0, under);
+            parts.push(under, awash);
+            return parts;
+        }
+    }
     let awash = depth.parts_above(-half);
     let under = depth.parts_above(half);
-    let mut parts = [None; MOST_PARTS];
-    let mut count = 0;
-    let mut push = |from: f64, to: f64| {
-        if to > from && count < parts.len() {
-            parts[count] = Some(Interval { from, to });
-            count += 1;
-        }
-    };
     for part in awash.iter() {
         let mut from = part.from;
         for wet in under.iter().filter(|wet| wet.from >= part.from && wet.to <= part.to) {
-            push(from, wet.from);
-            push(wet.from, wet.to);
+            parts.push(from, wet.from);
+            parts.push(wet.from, wet.to);
             from = wet.to;
         }
-        push(from, part.to);
+        parts.push(from, part.to);
     }
-    parts.into_iter().flatten()
+    parts
 }
 
 /// Wet fraction φ [-] and its change with height [1/m].
@@ -95,11 +123,11 @@ mod tests {
     /// A straight element from z = -1 to z = +1 with d = 0.2: wet for x < 0.45, awash to 0.55, dry beyond.
     #[test]
     fn a_rising_element_is_cut_where_it_enters_and_leaves_the_surface() {
-        let parts: Vec<_> = wet_parts(&Cubic::hermite(-1.0, 2.0, 1.0, 2.0), 0.2).collect();
+        let parts: Vec<_> = wet_parts(&Cubic::hermite(-1.0, 2.0, 1.0, 2.0), 0.2).as_slice().to_vec();
         assert_eq!(parts.len(), 2);
         for (found, exact) in [(parts[0].from, 0.0), (parts[0].to, 0.45), (parts[1].from, 0.45), (parts[1].to, 0.55)] {
             assert!((found - exact).abs() < 1e-14);
         }
-        assert_eq!(wet_parts(&Cubic::hermite(0.2, 0.0, 1.0, 0.0), 0.2).count(), 0);
+        assert_eq!(wet_parts(&Cubic::hermite(0.2, 0.0, 1.0, 0.0), 0.2).as_slice().len(), 0);
     }
 }

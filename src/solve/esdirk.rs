@@ -76,8 +76,8 @@ impl Tableau {
 /// A method and its working space.
 pub struct Esdirk {
     tableau: &'static Tableau,
-    velocities: Vec<Field>,
-    accelerations: Vec<Field>,
+    /// Rates at the stages between the first and the last: V_j and A_j.
+    between: Vec<[Field; 2]>,
     base: Field,
     error: Field,
 }
@@ -85,46 +85,59 @@ pub struct Esdirk {
 impl Esdirk {
     /// Room for `nodes` nodes.
     pub fn new(tableau: &'static Tableau, nodes: usize) -> Esdirk {
-        let fields = || (0..tableau.stages).map(|_| Field::new(nodes)).collect();
-        Esdirk { tableau, velocities: fields(), accelerations: fields(), base: Field::new(nodes), error: Field::new(nodes) }
+        let between = (2..tableau.stages).map(|_| [Field::new(nodes), Field::new(nodes)]).collect();
+        Esdirk { tableau, between, base: Field::new(nodes), error: Field::new(nodes) }
     }
 
     fn stage(&mut self, i: usize, bench: &mut Bench, from: &Moment, h: f64, next: &mut State) -> Result<(), Stall> {
         let (tableau, start) = (self.tableau, &from.state);
         let diagonal = tableau.gamma * h;
-        predict(from, tableau.nodes[i] * h, &mut next.a);
-        if i > 1 {
-            // Through the start and the stage before.
-            let factor = tableau.nodes[i] / tableau.nodes[i - 1];
-            next.a.set_sum([(1.0 - factor, &start.a), (factor, &self.accelerations[i - 1])]);
+        match self.between[..i - 1].last() {
+            None => predict(from, tableau.nodes[i] * h, &mut next.a),
+            Some([_, before]) => {
+                // Through the start and the stage before.
+                let factor = tableau.nodes[i] / tableau.nodes[i - 1];
+                next.a.set_sum([(1.0 - factor, &start.a), (factor, before)]);
+            }
         }
-        next.v.set_sum([(1.0, &start.v), (diagonal, &next.a)]);
-        for j in 0..i {
-            next.v.add(h * tableau.below[i][j], &self.accelerations[j]);
-        }
-        next.u.set_sum([(1.0, &start.u), (diagonal, &next.v)]);
-        for j in 0..i {
-            next.u.add(h * tableau.below[i][j], &self.velocities[j]);
+        // U takes V as it is predicted here, so V comes first.
+        for (order, of_stage) in [1, 0].into_iter().zip([&start.a, &start.v]) {
+            let State { u, v, a, .. } = &mut *next;
+            let (to, from, own) = if order == 1 { (v, &start.v, &*a) } else { (u, &start.u, &*v) };
+            let share = |j: usize| h * tableau.below[i][j];
+            match &self.between[..i - 1] {
+                [] => to.set_sum([(1.0, from), (diagonal, own), (share(0), of_stage)]),
+                [first] => to.set_sum([(1.0, from), (diagonal, own), (share(0), of_stage), (share(1), &first[order])]),
+                [first, second, ..] => to.set_sum([
+                    (1.0, from),
+                    (diagonal, own),
+                    (share(0), of_stage),
+                    (share(1), &first[order]),
+                    (share(2), &second[order]),
+                ]),
+            }
         }
         bench.prescribe(next, from.clock_after(tableau.nodes[i] * h));
         let weights = Weights { u: diagonal * diagonal, v: diagonal, a: 1.0 };
         bench.solve(&weights, next)?;
-        self.velocities[i].copy_from(&next.v);
-        self.accelerations[i].copy_from(&next.a);
+        if let Some([velocity, acceleration]) = self.between.get_mut(i - 1) {
+            velocity.copy_from(&next.v);
+            acceleration.copy_from(&next.a);
+        }
         Ok(())
     }
 }
 
 impl Scheme for Esdirk {
     fn step(&mut self, bench: &mut Bench, from: &Moment, h: f64, next: &mut State) -> Result<f64, Stall> {
-        self.velocities[0].copy_from(&from.state.v);
-        self.accelerations[0].copy_from(&from.state.a);
-        for i in 1..self.tableau.stages {
+        let last = self.tableau.stages - 1;
+        for i in 1..=last {
             self.stage(i, bench, from, h, next)?;
         }
-        self.error.fill(0.0);
-        for i in 0..self.tableau.stages {
-            self.error.add(h * self.tableau.error_weight(i), &self.velocities[i]);
+        let share = |i: usize| h * self.tableau.error_weight(i);
+        self.error.set_sum([(share(0), &from.state.v), (share(last), &next.v)]);
+        for (i, [velocity, _]) in (1..).zip(&self.between) {
+            self.error.add(share(i), velocity);
         }
         for &(node, component) in bench.line.fixed() {
             self.error.component_mut(component)[node] = 0.0;
