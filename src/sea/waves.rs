@@ -418,7 +418,7 @@ mod tests {
     const G: f64 = 9.80665;
 
     fn place(x: f64, y: f64, z: f64) -> Triple<f64> {
-        Triple { x, y: F::Across::of(y), z }
+        Triple { x, y, z }
     }
 
     fn late(now: f64) -> Clock {
