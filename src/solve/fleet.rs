@@ -188,9 +188,12 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
+    /// Number of a line, and a row.
+    type Place = (usize, usize);
+
     /// Lines of unequal speed go through rows 1 to 299; those in `failing` fail at a row. Returns the rows gathered, and the outcome.
-    fn travel(threads: usize, failing: &[(usize, usize)]) -> (Vec<Vec<(usize, usize)>>, Result<(), (usize, usize)>) {
-        let mut lines: Vec<(usize, usize)> = (0..7).map(|number| (number, 0)).collect();
+    fn travel(threads: usize, failing: &[Place]) -> (Vec<Vec<Place>>, Result<(), Place>) {
+        let mut lines: Vec<Place> = (0..7).map(|number| (number, 0)).collect();
         let (mut rows, gathered) = (Vec::new(), AtomicUsize::new(0));
         let outcome = on_threads(
             threads,
