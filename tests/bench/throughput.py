@@ -23,7 +23,7 @@ from scenes import BUILT_IN
 
 LINES = [1, 2, 4, 16, 64]
 #: At least so many runs, and as many as begin within so many seconds.
-RUNS, SECONDS = 7, 15.0
+RUNS, SECONDS = 7, 10.0
 
 
 def circle(number):
