@@ -1,5 +1,7 @@
 //! CABLE files (Ma & Webster 1994): read, written, turned into scenes and back, refused with line and column.
 
+mod support;
+
 use moorline::scene::cable::{Deck, Job, MotionKind, forced_motion, from_scene, reading, to_scene, turned, turned_back, writing};
 use moorline::scene::read::{Loaded, load, parse};
 use moorline::scene::types::{Motion, Scene, Stretch, Surface, Waves};
@@ -529,32 +531,16 @@ proptest! {
 
 /// The program itself, in an empty directory of its own.
 mod program {
+    use super::support::program::{directory, moorline, read};
     use super::{DYNAMIC, STATIC, deck};
     use moorline::scene::cable::{Deck, Job, writing};
-    use std::path::{Path, PathBuf};
-    use std::process::{Command, Output};
-
-    fn directory(test: &str) -> PathBuf {
-        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cable").join(test);
-        let _ = std::fs::remove_dir_all(&directory);
-        std::fs::create_dir_all(&directory).expect("a directory for the test");
-        directory
-    }
-
-    fn moorline(directory: &Path, arguments: &[&str]) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_moorline"));
-        command.current_dir(directory).args(arguments).output().expect("the program starts")
-    }
+    use std::path::Path;
 
     fn done(directory: &Path, arguments: &[&str]) -> (String, String) {
         let output = moorline(directory, arguments);
         let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
         assert_eq!(output.status.code(), Some(0), "{err}");
         (out, err)
-    }
-
-    fn read(path: PathBuf) -> String {
-        std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     }
 
     fn write(directory: &Path, name: &str, text: &str) {
@@ -574,7 +560,7 @@ mod program {
         write(&here, "static.dat", STATIC);
         let (_, warnings) = done(&here, &["run", "static.dat", "-o", "out", "--set", "solver.scheme=cable-1994"]);
         assert_eq!(warnings, "");
-        let output = deck(&read(here.join("out/output.dat")));
+        let output = deck(&read(&here.join("out/output.dat")));
         let node = |number: usize| output.nodes[number - 1];
         assert_eq!((node(1).slope[..2].to_vec(), node(1).lambda), (vec![0.89855, -0.44488], 1.32931e6));
         assert_eq!(node(2).position[..2], [27.1107, -13.02786]);
@@ -582,10 +568,10 @@ mod program {
         assert_eq!((node(4).position[0], node(4).slope[..2].to_vec()), (82.22988, vec![0.9283, -0.37867]));
         // The print has -37.10792 here; the same equations solved again give -37.107925.
         assert!((node(4).position[1] + 37.10792).abs() < 1.1e-5, "{:?}", node(4).position);
-        assert_eq!(rows(&read(here.join("out/timeseries.csv"))).len(), 1, "JOB = 1 is statics only");
+        assert_eq!(rows(&read(&here.join("out/timeseries.csv"))).len(), 1, "JOB = 1 is statics only");
         // An output is an input, and changes no more.
         done(&here, &["run", "out/output.dat", "-o", "again", "--quiet", "--set", "solver.scheme=cable-1994"]);
-        assert_eq!(read(here.join("again/output.dat")), read(here.join("out/output.dat")));
+        assert_eq!(read(&here.join("again/output.dat")), read(&here.join("out/output.dat")));
     }
 
     #[test]
@@ -595,22 +581,22 @@ mod program {
         write(&here, "deck.dat", &writing::text(&short));
         let (_, warnings) = done(&here, &["run", "deck.dat", "-o", "out", "--set", "solver.scheme=cable-1994"]);
         assert!(!warnings.contains("equilibrium"), "{warnings}");
-        let time_series = read(here.join("out/timeseries"));
+        let time_series = read(&here.join("out/timeseries"));
         assert_eq!(time_series.lines().count(), 21);
         let last = time_series.lines().last().unwrap_or_default();
         assert_eq!((last.len(), &last[..8]), (8 + 7 * 12, "   2.000"), "F8.3 and seven times 1PE12.5");
         let number = |k: usize| last[8 + 12 * k..20 + 12 * k].trim().parse::<f64>().expect("a number");
-        let table = rows(&read(here.join("out/timeseries.csv")));
+        let table = rows(&read(&here.join("out/timeseries.csv")));
         let [time, x, y, z, tension] = [0, 1, 2, 3, 4].map(|k| table[20][k]);
         assert_eq!(time, 2.0);
         assert!((number(0) - x).abs() < 1e-6 && (number(1) - z).abs() < 1e-6 && (number(2) + y).abs() < 1e-6, "{last}");
         let slope = number(3).hypot(number(4)).hypot(number(5));
         assert!((number(6) * slope / tension - 1.0).abs() < 1e-5, "λ times the length of the slope is the tension: {last}");
-        let snapshots = read(here.join("out/snapshot"));
+        let snapshots = read(&here.join("out/snapshot"));
         for step in ["#    0  (time =      0.000 s)", "#   10  (time =      1.000 s)", "#   20  (time =      2.000 s)"] {
             assert!(snapshots.contains(&format!(" Snapshot at Iteration {step}")), "{step} is missing in\n{snapshots}");
         }
-        let output = deck(&read(here.join("out/output.dat")));
+        let output = deck(&read(&here.join("out/output.dat")));
         assert_eq!(Deck { nodes: Vec::new(), ..output.clone() }, Deck { nodes: Vec::new(), ..short.clone() });
         assert!((output.nodes[0].position[0] - x).abs() < 1e-5 && (output.nodes[0].position[2] + y).abs() < 1e-5);
         assert!(output.nodes[0].velocity[0] != 0.0 && output.nodes[40].position == short.nodes[40].position);
@@ -631,15 +617,15 @@ mod program {
             let sets = ["--quiet", "--set", &set];
             let run = |file: &str, to: &str| {
                 done(&here, &[&["run", file, "-o", to][..], &sets[..]].concat());
-                let summary = read(here.join(to).join("summary.json"));
+                let summary = read(&here.join(to).join("summary.json"));
                 assert!(!summary.contains("equilibrium"), "nodes of the static example are in equilibrium: {summary}");
-                rows(&read(here.join(to).join("timeseries.csv")))
+                rows(&read(&here.join(to).join("timeseries.csv")))
             };
             write(&here, "whole.dat", &writing::text(&whole));
             write(&here, "first.dat", &writing::text(&Deck { end: 2.0, ..whole.clone() }));
             let (whole, first) = (run("whole.dat", "whole"), run("first.dat", "first"));
             assert_eq!(whole[..21], first[..]);
-            let output = deck(&read(here.join("first/output.dat")));
+            let output = deck(&read(&here.join("first/output.dat")));
             write(&here, "second.dat", &writing::text(&Deck { begin: 2.0, end: 4.0, ..output }));
             let second = run("second.dat", "second");
             assert_eq!(second.len(), 21);
@@ -662,7 +648,7 @@ mod program {
         write(&here, "deck.dat", &writing::text(&displaced));
         let (_, warnings) = done(&here, &["run", "deck.dat", "-o", "out", "--set", "solver.scheme=cable-1994"]);
         assert!(warnings.contains("not in equilibrium: node 15 would rest 3.0"), "{warnings}");
-        let first = read(here.join("out/nodes.csv")).lines().nth(15).unwrap_or_default().to_string();
+        let first = read(&here.join("out/nodes.csv")).lines().nth(15).unwrap_or_default().to_string();
         let z: f64 = first.split(',').nth(6).and_then(|cell| cell.parse().ok()).expect("z of node 15");
         assert!((z - displaced.nodes[14].position[1]).abs() < 1e-9, "the run begins from the nodes: {first}");
     }
@@ -677,7 +663,7 @@ mod program {
         for word in ["scene.dat", "environment.surface", "solver.stretch", "solver.hydrostatic_strain"] {
             assert!(said.contains(word), "{word} is missing in\n{said}");
         }
-        let converted = deck(&read(here.join("scene.dat")));
+        let converted = deck(&read(&here.join("scene.dat")));
         assert_eq!((converted.job, converted.nodes.len(), converted.bottom), (Job::Dynamics, 41, -120.0));
         assert!(
             (converted.nodes[0].lambda / 1.33e6 - 1.0).abs() < 0.01,

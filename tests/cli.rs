@@ -1,29 +1,14 @@
 //! The command as a user meets it: the program itself is started, and judged by its exit code, its words and its files.
 
+mod support;
+
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use support::program::{command, directory, moorline, read};
 
 const BUILT_IN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/lindahl-sjoberg.json");
 const COLUMNS: &str = "time,fairlead_x,fairlead_y,fairlead_z,tension,force_x,force_y,force_z,anchor_tension,grounded_length";
-
-/// An empty directory of its own for each test.
-fn directory(test: &str) -> PathBuf {
-    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(test);
-    let _ = std::fs::remove_dir_all(&directory);
-    std::fs::create_dir_all(&directory).expect("a directory for the test");
-    directory
-}
-
-fn command(directory: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_moorline"));
-    command.current_dir(directory).args(arguments);
-    command
-}
-
-fn moorline(directory: &Path, arguments: &[&str]) -> Output {
-    command(directory, arguments).output().expect("the program starts")
-}
 
 fn out(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
@@ -46,10 +31,6 @@ fn assert_fails(output: &Output, code: i32, words: &[&str]) {
 
 fn assert_done(output: &Output) {
     assert_eq!(output.status.code(), Some(0), "{}", err(output));
-}
-
-fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 fn json(text: &str) -> Value {
@@ -230,6 +211,106 @@ fn several_lines_stand_side_by_side_under_their_names() {
     assert!(out(&output).contains("stern"));
 }
 
+/// The rows of `timeseries.csv` as text, each line's own part of them: what is written for a scene of that line alone, header included.
+fn rows_by_line(directory: &Path) -> Vec<Vec<String>> {
+    let columns = COLUMNS.split(',').count() - 1;
+    let text = read(&directory.join("timeseries.csv"));
+    let rows: Vec<Vec<&str>> = text.lines().map(|row| row.split(',').collect()).collect();
+    let part = |row: &Vec<&str>, line: usize| {
+        let cells = row[1 + line * columns..1 + (line + 1) * columns].iter();
+        std::iter::once(row[0])
+            .chain(cells.map(|cell| cell.rsplit_once("_line.").map_or(*cell, |(_, column)| column)))
+            .collect::<Vec<_>>()
+            .join(",")
+    };
+    (0..(rows[0].len() - 1) / columns).map(|line| rows.iter().map(|row| part(row, line)).collect()).collect()
+}
+
+/// The rows of a line in `nodes.csv`.
+fn nodes_of(directory: &Path, name: &str) -> Vec<String> {
+    let text = read(&directory.join("nodes.csv"));
+    text.lines().filter(|row| row.split(',').nth(1) == Some(name)).map(str::to_string).collect()
+}
+
+/// Runs a scene whole and each of its lines alone; returns what they said and left, whole first.
+fn together_and_alone(here: &Path, scene: &Value, sets: &[&str]) -> Vec<(Output, Value)> {
+    let lines = scene["lines"].as_array().expect("lines");
+    let alone = lines.iter().map(|line| serde_json::json!([line]));
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+    let run = |(number, lines): (usize, Value)| {
+        let (file, out) = (format!("{number}.json"), number.to_string());
+        let mut scene = scene.clone();
+        scene["lines"] = lines;
+        std::fs::write(here.join(&file), scene.to_string()).expect("a scene");
+        let arguments = [&["run", &file, "-o", &out, "--quiet"], sets.as_slice()].concat();
+        let output = moorline(here, &arguments);
+        (output, json(&read(&here.join(&out).join("summary.json"))))
+    };
+    std::iter::once(scene["lines"].clone()).chain(alone).enumerate().map(run).collect()
+}
+
+/// Five lines of unequal length, ends, mesh and cost from one point of a vessel, to all sides.
+fn five_lines() -> Value {
+    let mut scene = json(&read(Path::new(BUILT_IN)));
+    scene["line_types"]["rope"] = serde_json::json!({"ea": 3.0e7, "mass": 20.0, "diameter": 0.12, "damping": 0.05});
+    let line = |name: &str, anchor: [f64; 2], kind: &str, length: f64| {
+        serde_json::json!({"name": format!("{name}_line"), "fairlead": [0.0, 0.0, 0.0], "anchor": [anchor[0], anchor[1], -120.0],
+            "sections": [{"type": kind, "length": length}]})
+    };
+    scene["lines"] = serde_json::json!([
+        line("bow", [1183.97, 0.0], "chain", 1200.0),
+        line("port", [0.0, 700.0], "rope", 720.0),
+        line("stern", [-770.0, 0.0], "chain", 800.0),
+        line("star", [0.0, -1250.0], "chain", 1270.0),
+        line("spring", [500.0, 500.0], "rope", 760.0)
+    ]);
+    scene
+}
+
+/// Lines that share a scene know nothing of each other: to the byte, each one's rows are those of a scene with it alone. That holds on any
+/// number of cores, since a line alone has one thread.
+#[test]
+fn of_several_lines_each_is_what_it_is_alone() {
+    let here = directory("together");
+    let runs = together_and_alone(&here, &five_lines(), &["run.duration=20", "motion.ramp=10"]);
+    let together = rows_by_line(&here.join("0"));
+    assert_eq!((together.len(), together[0].len()), (5, 202));
+    for (number, line) in together.iter().enumerate() {
+        let (alone, name) = (here.join((number + 1).to_string()), runs[0].1["lines"][number]["name"].as_str().expect("a name"));
+        assert_done(&runs[number + 1].0);
+        assert_eq!(line, &rows_by_line(&alone)[0], "{name}");
+        assert_eq!(nodes_of(&here.join("0"), name), nodes_of(&alone, name), "{name}");
+        assert_eq!(runs[0].1["lines"][number], runs[number + 1].1["lines"][0], "{name}");
+    }
+}
+
+/// The vessel surges a kilometre ahead: the line to the stern is the first that cannot follow. Its error ends the run, and what was
+/// done before is there, of all lines.
+#[test]
+fn of_several_lines_one_that_fails_ends_the_run_and_all_keep_their_rows() {
+    let here = directory("one-fails");
+    let runs = together_and_alone(
+        &here,
+        &five_lines(),
+        &["motion.sine=[1000,0,0]", "motion.period=60", "motion.ramp=10", "run.duration=15"],
+    );
+    let (failed, summary) = &runs[0];
+    assert_fails(failed, 3, &["line \"stern_line\"", "t = ", "s = "]);
+    assert_eq!(summary["error"], runs[3].1["error"], "the line's own error");
+    assert_eq!(summary["end_time"], runs[3].1["end_time"]);
+    assert_eq!(summary["lines"][2], runs[3].1["lines"][0]);
+    let together = rows_by_line(&here.join("0"));
+    let last = summary["end_time"].as_f64().expect("a time");
+    for (number, line) in together.iter().enumerate() {
+        let (alone, name) = (here.join((number + 1).to_string()), summary["lines"][number]["name"].as_str().expect("a name"));
+        let rows = &rows_by_line(&alone)[0];
+        assert_eq!(line[..], rows[..line.len()], "{name}");
+        assert!(rows.len() > line.len() || number == 2, "{name} goes on longer alone");
+        let nodes = nodes_of(&here.join("0"), name);
+        assert!(nodes.last().is_some_and(|row| row.starts_with(&format!("{last:?},"))), "{name} has a snapshot of the end");
+    }
+}
+
 #[test]
 fn quiet_prints_nothing() {
     let here = directory("quiet");
@@ -277,25 +358,31 @@ fn a_run_that_fails_half_way_leaves_what_it_had() {
 #[test]
 fn ctrl_c_leaves_complete_rows_summary_and_page() {
     let here = directory("ctrl-c");
-    let arguments = ["run", BUILT_IN, "--set", "run.duration=1000000", "--set", "run.output_step=0.1"];
-    let run = command(&here, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
-    let rows = here.join("out/timeseries.csv");
-    let patience = std::time::Instant::now();
-    while std::fs::read_to_string(&rows).map_or(0, |text| text.lines().count()) < 20 {
-        assert!(patience.elapsed().as_secs() < 60, "no rows after a minute");
-        std::thread::sleep(std::time::Duration::from_millis(20));
+    let several = three_lines(&here);
+    for scene in [BUILT_IN, &several] {
+        let arguments = ["run", scene, "--set", "run.duration=1000000", "--set", "run.output_step=0.1"];
+        let _ = std::fs::remove_dir_all(here.join("out"));
+        let run = command(&here, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
+        let rows = here.join("out/timeseries.csv");
+        let patience = std::time::Instant::now();
+        while std::fs::read_to_string(&rows).map_or(0, |text| text.lines().count()) < 20 {
+            assert!(patience.elapsed().as_secs() < 60, "no rows after a minute");
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+        let kill = Command::new("kill").args(["-INT", &run.id().to_string()]).status().expect("kill");
+        assert!(kill.success());
+        let output = run.wait_with_output().expect("the program ends");
+        assert!(read(&rows).ends_with('\n'), "the last row is complete");
+        let (header, rows) = table(&rows);
+        let last = rows[rows.len() - 1][0];
+        assert_fails(&output, 130, &[&format!("stopped by the user at t = {last} s")]);
+        assert!(rows.iter().all(|row| row.len() == header.len()));
+        assert!(read(&here.join("out/nodes.csv")).lines().last().is_some_and(|row| row.starts_with(&format!("{last:?},"))));
+        let summary = json(&read(&here.join("out/summary.json")));
+        assert_eq!(summary["completed"], false);
+        assert_eq!(summary["rows"].as_u64(), Some(rows.len() as u64));
+        assert!(read(&here.join("out/report.html")).contains("stopped by the user"));
     }
-    let kill = Command::new("kill").args(["-INT", &run.id().to_string()]).status().expect("kill");
-    assert!(kill.success());
-    let output = run.wait_with_output().expect("the program ends");
-    assert_fails(&output, 130, &["stopped by the user at t = "]);
-    assert!(read(&rows).ends_with('\n'), "the last row is complete");
-    let (header, rows) = table(&rows);
-    assert!(rows.iter().all(|row| row.len() == header.len()));
-    let summary = json(&read(&here.join("out/summary.json")));
-    assert_eq!(summary["completed"], false);
-    assert_eq!(summary["rows"].as_u64(), Some(rows.len() as u64));
-    assert!(read(&here.join("out/report.html")).contains("stopped by the user"));
 }
 
 #[test]

@@ -99,6 +99,45 @@ fn buoys_lift_a_line_as_the_piecewise_catenary() {
     }
 }
 
+/// Source: Newton's second law for a body on a prescribed path. Whatever holds a pinned end holds the bodies there: its force is that of the
+/// line without them, and their net weight, inertia and drag. The work done on it is theirs, too: - W Δz - ½ (m + A) v² without drag.
+#[test]
+fn what_holds_a_pinned_end_holds_the_bodies_at_it() {
+    let (mass, volume, added_mass) = (3.0e4, 5.0, 4.0e3);
+    let weight = mass * 10.0 - volume * 1.0e4;
+    let scene = |drag_area: f64, bodies: bool| {
+        let body = |s: f64| json!({"s": s, "mass": mass, "volume": volume, "added_mass": added_mass, "drag_area": drag_area});
+        let mut scene = hanging(500.0, 400.0, 150.0, Some(20), if bodies { json!([body(0.0), body(500.0)]) } else { json!([]) });
+        scene["motion"] = json!({"kind": "sinusoidal", "period": 8.0, "sine": [1.0, 0.5, 2.0], "ramp": 4.0});
+        scene["solver"] = json!({"fixed_step": 0.02});
+        scene
+    };
+    for drag_area in [0.0, 30.0] {
+        let ((mut bare, path), (mut laden, _)) = (simulation(&scene(drag_area, false)), simulation(&scene(drag_area, true)));
+        [&mut bare, &mut laden].into_iter().for_each(Simulation::sum_up_work);
+        for row in 0..=12 {
+            let time = 0.5 * row as f64;
+            for line in [&mut bare, &mut laden].into_iter().filter(|_| row > 0) {
+                line.advance(time, &path).unwrap_or_else(|error| panic!("{error}"));
+            }
+            let (without, with, fairlead) = (bare.outputs(), laden.outputs(), path.at(time));
+            let drag = fairlead.velocity * fairlead.velocity.norm() * (0.5 * 1000.0 * drag_area);
+            let net = Vector3::z() * weight;
+            let allowed = 1e-15 * with.tension;
+            let body = net + drag + fairlead.acceleration * (mass + added_mass);
+            assert_small("force", (with.force - without.force + body).norm() / allowed, 1.0);
+            assert_small("force on the anchor", (with.anchor_force - without.anchor_force + net).norm() / allowed, 1.0);
+            assert_eq!((with.tension, with.anchor_tension), (with.force.norm(), with.anchor_force.norm()));
+            assert_small("tension along the line", (with.tension_max - without.tension_max) / allowed, 1.0);
+            if drag_area == 0.0 {
+                let energy = weight * (fairlead.position.z - path.at(0.0).position.z)
+                    + 0.5 * (mass + added_mass) * (fairlead.velocity.norm_squared() - path.at(0.0).velocity.norm_squared());
+                assert_small("work", (with.work - without.work + energy) / 1.0e6, 2e-5);
+            }
+        }
+    }
+}
+
 /// Source: pendulum, released horizontally (reference f1): period 4 √(L/g) K(sin θ₀/2), tension at the bottom m g (3 - 2 cos θ₀). A line
 /// of 10 g with 1 t at its end; EA = 1e8 N stretches by 1e-4 on average.
 #[test]

@@ -18,8 +18,9 @@ use crate::scene::read::{self, Loaded};
 use crate::scene::state::LineState;
 use crate::scene::types::Scheme;
 use crate::solve::departure::{self, Departure};
+use crate::solve::fleet;
 use crate::solve::motion;
-use crate::solve::simulation::{NodeOutput, Outputs, Simulation};
+use crate::solve::simulation::{Counters, NodeOutput, Outputs, Simulation};
 use std::fmt::Write;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -39,11 +40,11 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     let started = Instant::now();
     let mut lines = MovingLines::new(&loaded)?;
     record.statics_seconds = started.elapsed().as_secs_f64();
+    lines.lines.iter().zip(&mut record.lines).for_each(|(line, into)| into.elements = line.simulation.elements());
 
     let files = Files::of(&arguments.options.output)?;
     let mut tables = Tables::create(&files, &record, &loaded, &arguments.options.output)?;
     let outcome = drive(&mut lines, &schedule, &mut record, &mut tables, quiet);
-    lines.count(&mut record);
     record.ended_by = outcome.as_ref().err().cloned();
     tables::write(&files.summary, &tables::summary(&record))?;
     tables::write(&files.report, &page::html(&record))?;
@@ -79,50 +80,137 @@ fn drive(
 ) -> Result<(), Error> {
     let interrupt = Interrupt::watch();
     lines.settle(record)?;
-    let mut nodes = lines.nodes();
-    tables.row(record, schedule.time(0), &lines.outputs(), &nodes)?;
-    tables.cable_row(lines)?;
-    tables.snapshot(record, schedule.time(0), &nodes)?;
+    let wanted = Wanted { schedule, walls: tables.walls, states: tables.cable.is_some() };
+    let start = lines.lines.iter().map(|line| line.sample(0, &wanted)).collect();
+    let mut now = Row::of(schedule.time(0), start);
+    tables.row(record, &now)?;
 
     let progress = Progress::new(schedule.rows(), record.scene.run.end(), quiet);
-    let mut outcome = Ok(());
-    for row in 1..schedule.rows() {
-        let time = schedule.time(row);
-        outcome = lines.advance(time, &interrupt, record);
-        if outcome.is_err() {
-            break;
-        }
-        let outputs = lines.outputs();
-        nodes = lines.nodes();
-        tables.row(record, time, &outputs, &nodes)?;
-        tables.cable_row(lines)?;
-        if row % schedule.rows_per_snapshot() == 0 {
-            tables.snapshot(record, time, &nodes)?;
-        }
-        progress.show(row, time, &outputs);
-    }
+    let gather = |row: usize, samples: Vec<Sample>| {
+        now = Row::of(schedule.time(row), samples);
+        tables.row(record, &now)?;
+        progress.show(row, now.time, &now.outputs);
+        Ok(())
+    };
+    let outcome =
+        fleet::through_rows(&mut lines.lines, 1..schedule.rows(), |line, row| line.go(row, &wanted, &interrupt), gather);
+    lines.account(record);
     // The last state that all lines share, wherever the run ended.
-    if let Some(end) = record.end_time().filter(|end| record.snapshot_times.last() < Some(end)) {
-        tables.snapshot(record, end, &nodes)?;
+    if record.snapshot_times.last() < Some(&now.time) {
+        let names = record.lines.iter().map(|line| line.name.as_str());
+        now.node_rows =
+            names.zip(&now.nodes).map(|(name, nodes)| tables::node_rows(now.time, name, nodes, tables.walls)).collect();
+        tables.snapshot(record, &now)?;
     }
-    tables.cable_output(record, lines)?;
+    tables.cable_output(record, &now)?;
     outcome
 }
 
-/// All lines of a scene with their fairlead paths. They do not know of each other; they meet at the output times.
+/// A line with the path of its fairlead.
+struct MovingLine {
+    name: String,
+    simulation: Simulation,
+    path: motion::Path,
+    /// Wall time inside the time loop [s].
+    seconds: f64,
+    /// Time at which the line stands, if it could go no further [s].
+    stuck_at: Option<f64>,
+}
+
+/// What is wanted of every line.
+struct Wanted<'a> {
+    schedule: &'a Schedule,
+    /// The tension of the wall.
+    walls: bool,
+    /// The state for the files of 1994.
+    states: bool,
+}
+
+/// A line at an output time, with its part of the tables.
+struct Sample {
+    outputs: Outputs,
+    nodes: Vec<NodeOutput>,
+    counters: Counters,
+    cells: String,
+    /// Where a snapshot is due.
+    node_rows: Option<Vec<u8>>,
+    state: Option<LineState>,
+}
+
+impl MovingLine {
+    /// Advances to a row, unless the user stops the run before.
+    fn go(&mut self, row: usize, wanted: &Wanted, interrupt: &Interrupt) -> Result<Sample, Error> {
+        if interrupt.came() {
+            return Err(Error::Interrupted { time: wanted.schedule.time(row - 1) });
+        }
+        let started = Instant::now();
+        let outcome = self.simulation.advance(wanted.schedule.time(row), &self.path);
+        self.seconds += started.elapsed().as_secs_f64();
+        if outcome.is_err() {
+            self.stuck_at = Some(wanted.schedule.time(row - 1));
+        }
+        outcome.map(|()| self.sample(row, wanted))
+    }
+
+    fn sample(&self, row: usize, wanted: &Wanted) -> Sample {
+        let (outputs, nodes) = (self.simulation.outputs(), self.simulation.nodes());
+        let due = row.is_multiple_of(wanted.schedule.rows_per_snapshot());
+        Sample {
+            outputs,
+            counters: self.simulation.counters(),
+            cells: tables::cells(&outputs),
+            node_rows: due.then(|| tables::node_rows(wanted.schedule.time(row), &self.name, &nodes, wanted.walls)),
+            nodes,
+            state: wanted.states.then(|| self.simulation.line_state()),
+        }
+    }
+}
+
+/// All lines at an output time.
+#[derive(Default)]
+struct Row {
+    time: f64,
+    outputs: Vec<Outputs>,
+    nodes: Vec<Vec<NodeOutput>>,
+    counters: Vec<Counters>,
+    cells: Vec<String>,
+    /// Empty where no snapshot is due.
+    node_rows: Vec<Vec<u8>>,
+    /// Of the first line, where a CABLE file is run.
+    state: Option<LineState>,
+}
+
+impl Row {
+    fn of(time: f64, lines: Vec<Sample>) -> Row {
+        let mut row = Row { time, ..Row::default() };
+        for line in lines {
+            row.outputs.push(line.outputs);
+            row.nodes.push(line.nodes);
+            row.counters.push(line.counters);
+            row.cells.push(line.cells);
+            row.node_rows.extend(line.node_rows);
+            row.state = row.state.or(line.state);
+        }
+        row
+    }
+}
+
+/// All lines of a scene. They do not know of each other; their rows are gathered at the output times.
 struct MovingLines {
-    lines: Vec<(Simulation, motion::Path)>,
+    lines: Vec<MovingLine>,
     /// The state that a CABLE file gives the first line.
     given: Option<Arc<LineState>>,
 }
 
 impl MovingLines {
     fn new(loaded: &Loaded) -> Result<MovingLines, Error> {
-        let line = |index| {
-            let path = motion::Path::of_scene(loaded, index);
-            Ok((Simulation::on_path(&loaded.scene, index, Some(&path))?, path))
+        let line = |index: &mut usize| {
+            let path = motion::Path::of_scene(loaded, *index);
+            let simulation = Simulation::on_path(&loaded.scene, *index, Some(&path))?;
+            Ok(MovingLine { name: loaded.scene.lines[*index].name.clone(), simulation, path, seconds: 0.0, stuck_at: None })
         };
-        let lines = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, Error>>()?;
+        let mut indices: Vec<usize> = (0..loaded.scene.lines.len()).collect();
+        let lines = fleet::for_each(&mut indices, line).into_iter().collect::<Result<_, Error>>()?;
         let dynamics = loaded.deck.as_ref().is_some_and(|deck| deck.job == Job::Dynamics);
         Ok(MovingLines { lines, given: loaded.state.clone().filter(|_| dynamics) })
     }
@@ -131,57 +219,40 @@ impl MovingLines {
     /// recorded.
     fn settle(&mut self, record: &mut Record) -> Result<(), Error> {
         let begin = record.scene.run.start;
+        let exactly = record.scene.solver.scheme == Scheme::Cable1994;
+        let started = Instant::now();
         let mut given = self.given.take();
-        for ((simulation, path), line) in self.lines.iter_mut().zip(&mut record.lines) {
-            let started = Instant::now();
-            let fairlead = path.at(begin).position;
-            let departure = match given.take() {
-                Some(given) => departure::depart(simulation, &given, fairlead, record.scene.solver.scheme == Scheme::Cable1994),
-                None => simulation.settle(fairlead, begin).map(Departure::Equilibrium),
-            };
-            record.statics_seconds += started.elapsed().as_secs_f64();
-            line.equilibrium = simulation.nodes();
+        let mut beginnings: Vec<_> = self.lines.iter_mut().map(|line| (line, given.take())).collect();
+        let departures = fleet::for_each(&mut beginnings, |(line, given)| {
+            let fairlead = line.path.at(begin).position;
+            match given {
+                Some(given) => departure::depart(&mut line.simulation, given, fairlead, exactly),
+                None => line.simulation.settle(fairlead, begin).map(Departure::Equilibrium),
+            }
+        });
+        record.statics_seconds += started.elapsed().as_secs_f64();
+        for ((line, departure), into) in self.lines.iter().zip(departures).zip(&mut record.lines) {
+            into.equilibrium = line.simulation.nodes();
             let departure = departure?;
             if let Departure::Equilibrium(report) | Departure::Foreign(report) = departure {
-                line.statics = Some(report);
+                into.statics = Some(report);
             }
             record.scene_warnings.extend(remark(&departure).map(|remark| format!("{}: {remark}", record.file)));
         }
         Ok(())
     }
 
-    /// The state of the first line.
-    fn line_state(&self) -> Option<LineState> {
-        self.lines.first().map(|(simulation, _)| simulation.line_state())
-    }
-
-    /// Advances all lines to an output time, unless the user stops the run before.
-    fn advance(&mut self, until: f64, interrupt: &Interrupt, record: &mut Record) -> Result<(), Error> {
-        for (simulation, path) in &mut self.lines {
-            if interrupt.came() {
-                return Err(Error::Interrupted { time: record.end_time().unwrap_or(0.0) });
-            }
-            let started = Instant::now();
-            let outcome = simulation.advance(until, path);
-            record.solver_seconds += started.elapsed().as_secs_f64();
-            outcome?;
-        }
-        Ok(())
-    }
-
-    fn outputs(&self) -> Vec<Outputs> {
-        self.lines.iter().map(|(simulation, _)| simulation.outputs()).collect()
-    }
-
-    fn nodes(&self) -> Vec<Vec<NodeOutput>> {
-        self.lines.iter().map(|(simulation, _)| simulation.nodes()).collect()
-    }
-
-    /// Notes the work done by the solver.
-    fn count(&self, record: &mut Record) {
-        for ((simulation, _), line) in self.lines.iter().zip(&mut record.lines) {
-            line.elements = simulation.elements();
-            line.counters = simulation.counters();
+    /// Notes the time spent, and the work of a line in the step that ended the run.
+    fn account(&self, record: &mut Record) {
+        let seconds = self.lines.iter().map(|line| line.seconds);
+        record.line_seconds = seconds.clone().sum();
+        record.solver_seconds =
+            (record.line_seconds / fleet::threads(self.lines.len()).max(1) as f64).max(seconds.fold(0.0, f64::max));
+        let end = record.end_time();
+        for (line, into) in
+            self.lines.iter().zip(&mut record.lines).filter(|(line, _)| line.stuck_at.is_some() && line.stuck_at == end)
+        {
+            into.counters = line.simulation.counters();
         }
     }
 }
@@ -233,6 +304,8 @@ impl Files {
 struct Tables {
     time_series: TimeSeries<File>,
     nodes: Nodes<File>,
+    /// Whether the nodes have a tension of the wall.
+    walls: bool,
     /// The files of 1994, where a CABLE file is run.
     cable: Option<(CableFiles, Arc<Deck>)>,
 }
@@ -245,33 +318,32 @@ impl Tables {
         Ok(Tables {
             time_series: TimeSeries::new(tables::create(&files.time_series)?, &files.time_series, &names)?,
             nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes, walls)?,
+            walls,
             cable: loaded.deck.clone().map(|deck| Ok((CableFiles::create(directory, &deck)?, deck))).transpose()?,
         })
     }
 
-    /// A row of the files of 1994.
-    fn cable_row(&mut self, lines: &MovingLines) -> Result<(), Error> {
-        let Some((files, _)) = &mut self.cable else { return Ok(()) };
-        lines.line_state().map_or(Ok(()), |state| files.row(&state))
+    /// A row of every table, and a snapshot where one is due.
+    fn row(&mut self, record: &mut Record, row: &Row) -> Result<(), Error> {
+        self.time_series.row(row.time, &row.cells)?;
+        record.add_row(row.time, &row.outputs, &row.nodes);
+        record.count(&row.counters);
+        if let (Some((files, _)), Some(state)) = (&mut self.cable, &row.state) {
+            files.row(state)?;
+        }
+        if row.node_rows.is_empty() { Ok(()) } else { self.snapshot(record, row) }
+    }
+
+    fn snapshot(&mut self, record: &mut Record, row: &Row) -> Result<(), Error> {
+        self.nodes.snapshot(&row.node_rows)?;
+        record.add_snapshot(row.time, &row.nodes);
+        Ok(())
     }
 
     /// The output of 1994.
-    fn cable_output(&self, record: &Record, lines: &MovingLines) -> Result<(), Error> {
-        let Some((files, deck)) = &self.cable else { return Ok(()) };
-        lines.line_state().map_or(Ok(()), |state| files.finish(&record.scene, deck, &state))
-    }
-
-    fn row(&mut self, record: &mut Record, time: f64, outputs: &[Outputs], nodes: &[Vec<NodeOutput>]) -> Result<(), Error> {
-        self.time_series.row(time, outputs)?;
-        record.add_row(time, outputs, nodes);
-        Ok(())
-    }
-
-    fn snapshot(&mut self, record: &mut Record, time: f64, nodes: &[Vec<NodeOutput>]) -> Result<(), Error> {
-        let names = record.lines.iter().map(|line| line.name.as_str());
-        self.nodes.snapshot(time, names.zip(nodes.iter().map(Vec::as_slice)))?;
-        record.add_snapshot(time, nodes);
-        Ok(())
+    fn cable_output(&self, record: &Record, row: &Row) -> Result<(), Error> {
+        let (Some((files, deck)), Some(state)) = (&self.cable, &row.state) else { return Ok(()) };
+        files.finish(&record.scene, deck, state)
     }
 }
 

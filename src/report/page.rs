@@ -199,7 +199,7 @@ fn row(heading: &str, statistics: Option<Statistics>, show: impl Fn(f64) -> Stri
 /// The work of the solver and what it cost.
 fn solver(record: &Record) -> String {
     let counters = record.counters();
-    let per = |count: usize| if count > 0 { wall_time(record.solver_seconds / count as f64) } else { "–".to_string() };
+    let per = |count: usize| if count > 0 { wall_time(record.line_seconds / count as f64) } else { "–".to_string() };
     let iterations: usize = record.lines.iter().filter_map(|line| line.statics).map(|statics| statics.iterations).sum();
     let pairs = [
         ("Scheme", scheme(record)),

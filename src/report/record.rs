@@ -24,8 +24,11 @@ pub struct Record {
     pub snapshot_step: f64,
     /// Wall time of meshing and static equilibrium, all lines [s].
     pub statics_seconds: f64,
-    /// Wall time inside the time loop, all lines, no output [s].
+    /// Wall time inside the time loop, all lines, no output [s]: that of all lines shared out to the threads, or of the slowest line if
+    /// that is longer.
     pub solver_seconds: f64,
+    /// The same, added up over the lines [s].
+    pub line_seconds: f64,
     /// Warnings of the scene.
     pub scene_warnings: Vec<String>,
     /// Why the run ended early; `None` after a whole run.
@@ -135,6 +138,7 @@ impl Record {
             snapshot_step,
             statics_seconds: 0.0,
             solver_seconds: 0.0,
+            line_seconds: 0.0,
             scene_warnings,
             ended_by: None,
         }
@@ -147,6 +151,11 @@ impl Record {
             line.rows.push(*outputs);
             line.watch_breaking_loads(time, outputs.tension_max, nodes);
         }
+    }
+
+    /// Notes the work done for each line so far.
+    pub fn count(&mut self, counters: &[Counters]) {
+        self.lines.iter_mut().zip(counters).for_each(|(line, counters)| line.counters = *counters);
     }
 
     /// Adds a snapshot: time [s] and each line's nodes then.

@@ -28,26 +28,26 @@ pub fn unwritable(path: &Path, error: &impl std::fmt::Display) -> Error {
     Error::File { path: path.display().to_string(), reason: format!("cannot be written: {error}") }
 }
 
-/// A table of numbers on its way to a file. Every row reaches the file whole before the next is begun, so that a run that is
-/// stopped leaves complete rows.
+/// A table on its way to a file. What is put goes out at once and whole, so that a run that is stopped leaves complete rows.
 struct Table<W: Write> {
-    writer: csv::Writer<W>,
+    to: W,
     path: PathBuf,
 }
 
 impl<W: Write> Table<W> {
-    fn new(to: W, path: &Path) -> Table<W> {
-        // Room for many rows of nodes, so that a snapshot, too, goes out in few writes.
-        Table { writer: csv::WriterBuilder::new().buffer_capacity(1 << 16).from_writer(to), path: path.to_path_buf() }
+    fn put(&mut self, text: &[u8]) -> Result<(), Error> {
+        self.to.write_all(text).and_then(|()| self.to.flush()).map_err(|error| unwritable(&self.path, &error))
     }
+}
 
-    fn row<T: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = T>) -> Result<(), Error> {
-        self.writer.write_record(cells).map_err(|error| unwritable(&self.path, &error))
+/// The text of rows of cells, which are quoted where they must be.
+fn text<T: AsRef<[u8]>, R: IntoIterator<Item = T>>(rows: impl Iterator<Item = R>) -> Vec<u8> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for cells in rows {
+        // Rows of one length, in memory: this does not fail.
+        let _ = writer.write_record(cells);
     }
-
-    fn flush(&mut self) -> Result<(), Error> {
-        self.writer.flush().map_err(|error| unwritable(&self.path, &error))
-    }
+    writer.into_inner().unwrap_or_default()
 }
 
 /// The shortest decimal number that reads back as the same float.
@@ -63,62 +63,66 @@ pub struct TimeSeries<W: Write> {
 impl<W: Write> TimeSeries<W> {
     /// Writes the header. The columns of several lines are prefixed `NAME.`; `path` is for messages.
     pub fn new(to: W, path: &Path, lines: &[&str]) -> Result<TimeSeries<W>, Error> {
-        let mut table = Table::new(to, path);
+        let mut table = Table { to, path: path.to_path_buf() };
         let prefix = |line: &str| if lines.len() == 1 { String::new() } else { format!("{line}.") };
         let columns = lines.iter().flat_map(|line| COLUMNS.map(|column| prefix(line) + column));
-        table.row(std::iter::once("time".to_string()).chain(columns))?;
-        table.flush()?;
+        table.put(&text(std::iter::once(std::iter::once("time".to_string()).chain(columns))))?;
         Ok(TimeSeries { table })
     }
 
-    /// Writes the row of a time [s]: one set of outputs per line.
-    pub fn row(&mut self, time: f64, lines: &[Outputs]) -> Result<(), Error> {
-        let cells = lines.iter().flat_map(|line| {
-            [
-                line.fairlead.x,
-                line.fairlead.y,
-                line.fairlead.z,
-                line.tension,
-                line.force.x,
-                line.force.y,
-                line.force.z,
-                line.anchor_tension,
-                line.grounded_length,
-            ]
-        });
-        self.table.row(std::iter::once(time).chain(cells).map(number))?;
-        self.table.flush()
+    /// Writes the row of a time [s]: the `cells` of every line.
+    pub fn row(&mut self, time: f64, lines: &[String]) -> Result<(), Error> {
+        let mut row = number(time);
+        lines.iter().for_each(|cells| row.extend([",", cells]));
+        row.push('\n');
+        self.table.put(row.as_bytes())
     }
+}
+
+/// The cells of a line in a row of `timeseries.csv`.
+pub fn cells(line: &Outputs) -> String {
+    let numbers = [
+        line.fairlead.x,
+        line.fairlead.y,
+        line.fairlead.z,
+        line.tension,
+        line.force.x,
+        line.force.y,
+        line.force.z,
+        line.anchor_tension,
+        line.grounded_length,
+    ];
+    numbers.map(number).join(",")
 }
 
 /// `nodes.csv`: the nodes of all lines at the snapshots, nodes counted from 0 at the fairlead.
 pub struct Nodes<W: Write> {
     table: Table<W>,
-    walls: bool,
 }
 
 impl<W: Write> Nodes<W> {
     /// Writes the header; `path` is for messages; `walls`: with a column for the tension of the wall.
     pub fn new(to: W, path: &Path, walls: bool) -> Result<Nodes<W>, Error> {
-        let mut table = Table::new(to, path);
+        let mut table = Table { to, path: path.to_path_buf() };
         let wall = walls.then_some("wall_tension");
-        table.row(["time", "line", "node", "s", "x", "y", "z", "tension"].into_iter().chain(wall))?;
-        table.flush()?;
-        Ok(Nodes { table, walls })
+        table.put(&text(std::iter::once(["time", "line", "node", "s", "x", "y", "z", "tension"].into_iter().chain(wall))))?;
+        Ok(Nodes { table })
     }
 
-    /// Writes the snapshot of a time [s]: names and nodes of the lines.
-    pub fn snapshot<'a>(&mut self, time: f64, lines: impl Iterator<Item = (&'a str, &'a [NodeOutput])>) -> Result<(), Error> {
-        for (line, nodes) in lines {
-            for (index, node) in nodes.iter().enumerate() {
-                let [s, x, y, z] = [node.s, node.position.x, node.position.y, node.position.z].map(number);
-                let wall = self.walls.then(|| node.wall_tension.map_or(String::new(), number));
-                let cells = [number(time), line.to_string(), index.to_string(), s, x, y, z, number(node.tension)];
-                self.table.row(cells.into_iter().chain(wall))?;
-            }
-        }
-        self.table.flush()
+    /// Writes a snapshot: the `node_rows` of every line.
+    pub fn snapshot(&mut self, lines: &[Vec<u8>]) -> Result<(), Error> {
+        self.table.put(&lines.concat())
     }
+}
+
+/// The rows of a line's nodes in `nodes.csv` at a time [s]; `walls` as in the header.
+pub fn node_rows(time: f64, line: &str, nodes: &[NodeOutput], walls: bool) -> Vec<u8> {
+    let time = number(time);
+    text(nodes.iter().enumerate().map(|(index, node)| {
+        let [s, x, y, z] = [node.s, node.position.x, node.position.y, node.position.z].map(number);
+        let wall = walls.then(|| node.wall_tension.map_or(String::new(), number));
+        [time.clone(), line.to_string(), index.to_string(), s, x, y, z, number(node.tension)].into_iter().chain(wall)
+    }))
 }
 
 /// `summary.json`. Counters at the top are the sums over all lines; what belongs to one line stands under `lines`, in the order of
@@ -257,7 +261,7 @@ mod tests {
         let mut bytes = Vec::new();
         {
             let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), lines).expect("header");
-            rows.iter().for_each(|row| table.row(0.3, row).expect("row"));
+            rows.iter().for_each(|row| table.row(0.3, &row.iter().map(cells).collect::<Vec<_>>()).expect("row"));
         }
         String::from_utf8(bytes).expect("text")
     }
@@ -288,8 +292,8 @@ mod tests {
     fn every_row_is_on_its_way_before_the_next_is_begun() {
         let mut bytes = Vec::new();
         let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), &["line"]).expect("header");
-        table.row(0.3, &[outputs(1.0)]).expect("row");
-        // Forgotten, the writer cannot flush on its way out: what is there was there before.
+        table.row(0.3, &[cells(&outputs(1.0))]).expect("row");
+        // Forgotten, the table cannot write on its way out: what is there was there before.
         std::mem::forget(table);
         assert_eq!(bytes.iter().filter(|byte| **byte == b'\n').count(), 2);
     }

@@ -3,7 +3,7 @@
 //! Wanted length at s: on the swept touchdown zone a multiple of the decay length √(T/k); elsewhere a share of the line, no longer
 //! than a fifth of the transverse wave that the motion sends along it, a part of the radius of curvature and, near the surface of a
 //! sea, a part of its waves. Measured on the built-in case: with 2.8 decay lengths on the zone and 4 times coarser elements
-//! elsewhere, the end tension is good to 0.05 %.
+//! elsewhere, the end tension is good to 0.05 %. A line that snaps gets elements of nearly one length.
 
 use nalgebra::Vector3;
 
@@ -48,6 +48,8 @@ pub struct Rules {
     pub period: f64,
     /// Wave number of the sea [1/m]; 0: none.
     pub wave_number: f64,
+    /// The motion is so fast that the line goes slack and snaps.
+    pub snaps: bool,
     /// Shortest element [m].
     pub shortest: f64,
 }
@@ -56,6 +58,8 @@ pub struct Rules {
 const HANGING: f64 = 15.0;
 /// Elements per line where it is carried, at refinement 1.
 const CARRIED: f64 = 7.0;
+/// Elements per line that snaps, at refinement 1: what runs along it after a snap is as sharp everywhere.
+const SNAPPING: f64 = 55.0;
 /// Decay lengths per element on the touchdown zone, at refinement 1.
 const DECAY_LENGTHS: f64 = 2.8;
 /// Elements per transverse wave length.
@@ -96,7 +100,12 @@ fn decay_length(rules: &Rules, tension: f64) -> f64 {
 }
 
 fn free_size(rules: &Rules, sample: &Sample) -> f64 {
-    let share = rules.length / (rules.refinement * if sample.carried { CARRIED } else { HANGING });
+    let count = match (rules.snaps, sample.carried) {
+        (true, _) => SNAPPING,
+        (false, true) => CARRIED,
+        (false, false) => HANGING,
+    };
+    let share = rules.length / (rules.refinement * count);
     let wave = (sample.tension.max(0.0) / rules.mass).sqrt() * rules.period / (PER_WAVE * rules.refinement.sqrt());
     let k = rules.wave_number;
     let sea = if k > 0.0 {

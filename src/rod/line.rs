@@ -50,7 +50,10 @@ pub trait Line: Send + Sync {
     fn tensions(&self, u: &Field, v: &Field, out: &mut [f64]);
     /// Force [N] that the fairlead side exerts on the anchor side at every node (so at the anchor: the force of the line on it).
     fn node_forces(&self, at: &Motion, out: &mut [Vector3<f64>]);
-    /// Force of the line on what holds its fairlead [N].
+    /// Force that what holds a pinned end applies to the bodies at that end [N]; zero at any other node, where nothing but the line holds
+    /// them.
+    fn held_bodies(&self, node: usize, at: &Motion) -> Vector3<f64>;
+    /// Force on what holds the fairlead [N]: of the line, and of the bodies at the fairlead where it is pinned.
     fn end_force(&self, at: &Motion) -> Vector3<f64>;
     /// Unstretched length of element `e` in contact with the bed [m].
     fn touching_length(&self, u: &Field, e: usize) -> f64;
@@ -252,8 +255,14 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
         }
     }
 
+    fn held_bodies(&self, node: usize, at: &Motion) -> Vector3<f64> {
+        let bodies = self.supports.bodies.iter().filter(|body| body.node == node && self.is_pinned(node));
+        bodies.map(|body| body.force(&self.water, at)).sum()
+    }
+
     fn end_force(&self, at: &Motion) -> Vector3<f64> {
-        (-self.element_forces(at, self.table.len() - 1)[2]).into()
+        let line = Vector3::from(self.element_forces(at, self.table.len() - 1)[2]);
+        -line - self.held_bodies(self.last(), at)
     }
 
     fn holding_nodes(&self) -> usize {

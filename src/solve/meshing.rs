@@ -137,6 +137,8 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
     } else {
         ground.resistance.iter().map(|r| r.stiffness).fold(f64::INFINITY, f64::min)
     };
+    let (anchor, falls) = (Vector3::from(line.anchor), mean(&|p| fall_speed(p)));
+    let slackens = places.iter().any(|fairlead| (fairlead - anchor).norm() < whole.length);
     let drop = places.iter().map(|fairlead| (fairlead.z - line.anchor[2]).abs()).fold(0.0, f64::max);
     let sea = Waves::of(&scene.environment).map(|waves| waves.mean());
     Rules {
@@ -152,7 +154,27 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
             _ => 0.0,
         },
         wave_number: sea.map_or(0.0, |(_, k)| k),
+        snaps: slackens && fairlead_speed(&scene.motion) > falls,
         shortest: (whole.length / 400.0).max(0.02 * drop).min(whole.length / 20.0) / finer,
+    }
+}
+
+/// Speed at which a level line sinks (or rises) freely, where drag carries its weight [m/s]: a fairlead that is faster leaves the line behind,
+/// which goes slack and snaps.
+fn fall_speed(p: &Properties) -> f64 {
+    (p.weight.abs() / p.drag_normal.max(f64::MIN_POSITIVE)).sqrt()
+}
+
+/// Largest speed of a sinusoidal motion [m/s].
+fn fairlead_speed(motion: &Motion) -> f64 {
+    match motion {
+        Motion::Sinusoidal { period, sine, cosine, .. } => {
+            let (a, b) = (Vector3::from(*sine), Vector3::from(*cosine));
+            // Half the major axis of the ellipse that a sin + b cos goes along.
+            let (sum, skew) = (0.5 * (a.dot(&a) + b.dot(&b)), 0.5 * (a.dot(&a) - b.dot(&b)));
+            TAU / period * (sum + skew.hypot(a.dot(&b))).sqrt()
+        }
+        _ => 0.0,
     }
 }
 

@@ -5,7 +5,8 @@ use crate::rod::state::State;
 use crate::solve::newton::motion;
 use nalgebra::Vector3;
 
-/// What a line tells about itself at one instant. Forces are those the line exerts on what holds it.
+/// What a line tells about itself at one instant. Forces are those on what holds an end: of the line, and where the end is pinned, of the
+/// clumps and buoys at it. (Where a constraint releases the end, it holds line and bodies alike, and the force is the line's on both.)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outputs {
     /// Time [s].
@@ -14,11 +15,11 @@ pub struct Outputs {
     pub fairlead: Vector3<f64>,
     /// Force on the vessel [N].
     pub force: Vector3<f64>,
-    /// Effective tension at the fairlead, |force| [N].
+    /// |force| [N]: the effective tension at the fairlead, unless a body is there.
     pub tension: f64,
     /// Force on the anchor [N].
     pub anchor_force: Vector3<f64>,
-    /// Effective tension at the anchor [N].
+    /// |anchor_force| [N], as `tension`.
     pub anchor_tension: f64,
     /// Largest effective tension along the line [N].
     pub tension_max: f64,
@@ -66,7 +67,8 @@ pub fn node_forces(line: &dyn Line, state: &State) -> Vec<Vector3<f64>> {
 /// Outputs of a state with given forces at the nodes [N], as `Line::node_forces` gives them.
 pub fn from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>], time: f64, work: f64) -> Outputs {
     let last = line.last();
-    let (force, anchor_force) = (-forces[last], forces[0]);
+    let at = motion(state);
+    let (force, anchor_force) = (-forces[last] - line.held_bodies(last, &at), forces[0] - line.held_bodies(0, &at));
     Outputs {
         time,
         fairlead: state.u.position(last),
@@ -118,7 +120,7 @@ pub fn difference(after: &Outputs, before: &Outputs, per: f64) -> Outputs {
 
 /// Force and place of the fairlead, and their changes for a change of the state.
 pub struct EndChange {
-    /// Force of the line on what holds it [N].
+    /// Force on what holds it [N].
     pub force: Vector3<f64>,
     /// Position [m].
     pub place: Vector3<f64>,

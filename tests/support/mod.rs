@@ -24,6 +24,8 @@ use moorline::solve::statics::{self, Balance};
 use nalgebra::{DMatrix, SVector, Vector3};
 use serde_json::Value;
 
+pub mod program;
+
 pub const GRAVITY: f64 = 9.80665;
 pub const X: usize = 0;
 pub const Y: usize = 1;
