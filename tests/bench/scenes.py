@@ -100,6 +100,6 @@ CASES = [
         CHAIN,
         (7.5, 15.0),
         peaks=1.25,
-        reference={"elements": 80, "fixed_step": 0.0005},
+        reference={"elements": 160, "fixed_step": 0.0005},
     ),
 ]

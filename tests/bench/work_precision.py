@@ -22,7 +22,7 @@ if "--without-peer" not in sys.argv:
     in_environment()
     import peer
 
-from scenes import BUILT_IN, CASES, FINE, with_mesh
+from scenes import BUILT_IN, CASES, FINE, altered, with_mesh
 
 TOLERANCES = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5]
 MESHES = [5, 10, 20, 40, 80]
@@ -50,6 +50,22 @@ def ours(case, exact, runs):
                 work = {key: run.summary[key] for key in ("steps", "newton_iterations", "element_iterations")}
                 used = run.summary["elements"]
                 yield {**point, "used": used, "rms": rms, "largest": largest, "seconds": run.seconds, **work}
+
+
+def seldom(case, exact, runs):
+    """Points of moorline with rows, and so steps, further apart than the other points have them: what suffices for a percent."""
+    row = case.scene["run"]["output_step"]
+    for every in (3, 5):
+        step = every * row
+        scene = altered(case.scene, run={"output_step": step})
+        for tolerance in (2e-2, 1.5e-2, 1e-2):
+            for scheme in SCHEMES:
+                settings = f"automatic mesh, tolerance {tolerance:g}, rows every {step:g} s"
+                point = {"program": "moorline", "scheme": scheme, "elements": None, "tolerance": tolerance, "settings": settings}
+                run = fastest(scene, runs, scheme=scheme, tolerance=tolerance, max_step=step)
+                rms, largest = errors(case, judged(case, run.times, run.tension), exact[::every])
+                work = {"used": run.summary["elements"], "steps": run.summary["steps"], "seconds": run.seconds}
+                yield {**point, "seldom": True, "rms": rms, "largest": largest, **work}
 
 
 def of_1994(case, runs):
@@ -199,12 +215,14 @@ def picture(case, points):
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "moorline", "font.size": 9, "font.family": "sans-serif"})
     figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
     good = [p for p in points if "failed" not in p]
+    seldoms = any("seldom" in p for p in good)
     for scheme, colour in zip(SCHEMES, ("#0b6fa4", "#d1641f", "#3c8d40")):
         mine = [p for p in good if p["program"] == "moorline" and p["scheme"] == scheme]
-        auto = sorted((p for p in mine if not p["elements"]), key=lambda p: p["tolerance"], reverse=True)
+        auto = sorted((p for p in mine if not p["elements"] and "seldom" not in p), key=lambda p: p["tolerance"], reverse=True)
         given = [p for p in mine if p["elements"]]
         draw(axes, auto, "o-", color=colour, label=f"moorline {scheme}, automatic mesh")
         draw(axes, given, ".", color=colour, alpha=0.45, label="  5 to 80 equal elements")
+        draw(axes, [p for p in mine if "seldom" in p], "+", color=colour, alpha=0.6, label="  rows every 0.3 or 0.5 s" if seldoms else None)
     old = [p for p in good if p["scheme"] == "cable-1994"]
     draw(axes, old, "x", color="#8a5fa8", label="moorline cable-1994, 20 to 80 elements")
     for scheme, mark in (("rk2", "v:"), ("rk4", "s--")):
@@ -256,6 +274,8 @@ def main():
         exact = reference(case)
         # The two programs take turns, so that a busy minute of the machine meets both.
         points, sources = [], [ours(case, exact, runs)]
+        if case.name == "built-in":
+            sources.append(seldom(case, exact, runs))
         if case.name == "built-in" and not FEW:
             sources.append(of_1994(case, runs))
         if "peer" in globals():
