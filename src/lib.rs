@@ -100,6 +100,7 @@ pub mod solve {
     pub mod outputs;
     pub mod relaxation;
     pub mod rest;
+    pub mod rounding;
     pub mod scheme;
     pub mod search;
     pub mod simulation;
