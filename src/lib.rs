@@ -103,6 +103,7 @@ pub mod solve {
     pub mod plane;
     pub mod relaxation;
     pub mod rest;
+    pub mod rounding;
     pub mod scheme;
     pub mod search;
     pub mod simulation;

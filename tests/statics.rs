@@ -7,10 +7,12 @@ use moorline::algebra::shape::{GAUSS3, Shape};
 use moorline::rod::awash::Surface;
 use moorline::rod::mesh::{Mesh, Properties};
 use moorline::rod::physics::Surroundings;
+use moorline::rod::state::{Field, State};
 use moorline::scene::read::parse;
 use moorline::scene::types::{CurrentPoint, Stretch};
 use moorline::sea::current::Current;
 use moorline::solve::newton::motion;
+use moorline::solve::rounding;
 use moorline::solve::simulation::Simulation;
 use moorline::solve::start::{self, Bounds};
 use nalgebra::Vector3;
@@ -581,4 +583,63 @@ fn forces_on_vessel_anchor_and_bed_add_up_to_the_weight() {
     assert_small("vertical", (sum.z + weight) / weight, 2e-8);
     assert_small("along", sum.x / weight, 1e-9);
     assert_small("sideways", sum.y / weight, 1e-12);
+}
+
+/// Source: inextensible catenary (reference a1), EA 1e9 times the weight: what rounding of the positions leaves out of balance is 5 times
+/// what is allowed to other lines. It counts as equilibrium, and the end tension is right to that.
+#[test]
+fn a_line_too_stiff_for_its_digits_is_in_equilibrium_to_rounding() {
+    let mut rig = free_span("a1_inextensible_suspended", 1.0e13, 20, Stretch::Exact);
+    let balance = rig.settle();
+    let exact = reference("/a1_inextensible_suspended/T_top");
+    assert_close("T top", rig.fairlead_force().norm(), exact, 1e-5);
+    println!("allowed: {:.2e} of the weight, unbalanced: {:.2e}", balance.allowed / 1.0e4, balance.residual / 1.0e4);
+    assert!((2e-6..2e-5).contains(&(balance.allowed / 1.0e4)), "{balance:?}");
+}
+
+/// Source: differences. When every unknown moves by a thousand times its rounding, in a random direction, no residual changes by more than a
+/// thousand times its bound, and some by nearly as much. Measured 1.00.
+#[test]
+fn what_rounding_does_to_the_residual_is_bounded() {
+    let rig = free_span("a1_inextensible_suspended", 1.0e11, 20, Stretch::Exact);
+    let bound = rounding::bound(rig.line.as_ref(), &rig.state);
+    let residual = |state: &State| {
+        let mut residual = Field::new(state.u.nodes());
+        rig.line.residual(&motion(state), &mut residual);
+        residual
+    };
+    let before = residual(&rig.state);
+    let (mut largest, mut seed, factor): (f64, u64, f64) = (0.0, 1, 1.0e3);
+    for _ in 0..100 {
+        let mut state = rig.state.clone();
+        for x in state.u.data_mut() {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            let sign = if seed >> 63 == 0 { 1.0 } else { -1.0 };
+            *x += sign * factor * 0.5 * f64::EPSILON * *x;
+        }
+        let after = residual(&state);
+        for c in 0..6 {
+            for node in 0..state.u.nodes() {
+                let allowed = bound.component(c)[node];
+                if allowed > 0.0 {
+                    largest = largest.max((after.component(c)[node] - before.component(c)[node]).abs() / (factor * allowed));
+                }
+            }
+        }
+    }
+    println!("largest change {largest:.2} of the bound");
+    assert!((0.9..=1.02).contains(&largest), "{largest}");
+}
+
+/// Source: definition. A weightless line 1.4 times as long as the way between its ends pulls at nothing: its tension is zero everywhere, to the
+/// last digit, though it is as stiff as a chain.
+#[test]
+fn a_weightless_slack_line_pulls_at_nothing() {
+    let simulation = settled(&json!({
+        "environment": {"depth": 44.0, "surface": "none"},
+        "line_types": {"rope": {"ea": 2.4e9, "mass": 27.0, "diameter": 0.07, "submerged_weight": 0.0}},
+        "lines": [{"fairlead": [0, 0, 0], "anchor": [25.4, 0, -43.7], "sections": [{"type": "rope", "length": 70, "elements": 26}]}],
+    }));
+    assert_eq!((simulation.outputs().tension, simulation.outputs().anchor_tension), (0.0, 0.0));
+    assert!(simulation.nodes().iter().all(|node| node.tension == 0.0));
 }

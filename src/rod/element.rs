@@ -146,8 +146,8 @@ impl Table {
         self.data[property as usize * self.stride + e]
     }
 
-    fn rows(&self) -> [&[f64]; PROPERTIES] {
-        std::array::from_fn(|k| &self.data[k * self.stride..][..self.stride + MOST_LANES])
+    fn rows(&self) -> Rows<'_> {
+        Rows { data: &self.data, stride: self.stride }
     }
 
     /// Coefficients of the water's force on element `e`.
@@ -179,17 +179,24 @@ pub(in crate::rod) fn with_curve<F: Real, S: Stretch>(
     Axial { elastic, stiffness, ..axial }
 }
 
+/// The rows of a table.
+#[derive(Clone, Copy)]
+pub(in crate::rod) struct Rows<'a> {
+    data: &'a [f64],
+    stride: usize,
+}
+
 /// Properties of the elements of a batch.
 pub(in crate::rod) struct Batch<'a, F: Real> {
     pub cpu: F::Cpu,
-    pub rows: &'a [&'a [f64]; PROPERTIES],
+    pub rows: Rows<'a>,
     pub e: usize,
 }
 
 impl<F: Real> Batch<'_, F> {
     #[inline(always)]
     pub fn get(&self, property: Property) -> F {
-        F::load(self.cpu, self.rows[property as usize], self.e)
+        F::load(self.cpu, self.rows.data, property as usize * self.rows.stride + self.e)
     }
 
     #[inline(always)]
@@ -317,7 +324,7 @@ pub struct Acting<F: Real> {
 pub(in crate::rod) struct Source<'a, W> {
     pub clock: Clock,
     pub curves: &'a Curves,
-    pub table: [&'a [f64]; PROPERTIES],
+    pub table: Rows<'a>,
     pub water: &'a W,
     bed: Option<&'a Bed>,
     pub u: [&'a [f64]; COMPONENTS],
@@ -354,7 +361,7 @@ pub fn forces<S: Stretch, W: Water, B: Bending>(
 /// What acts on the ends of elements from `e` on. In drag and stretch about 830 operations, of them 3 quotients and 6 roots.
 #[inline(always)]
 fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: &Source<W>, e: usize) -> Acting<F> {
-    let table = Batch::<F> { cpu, rows: &source.table, e };
+    let table = Batch::<F> { cpu, rows: source.table, e };
     let (length, per_length, measure) =
         (table.get(Property::Length), table.get(Property::PerLength), table.get(Property::Measure));
     let (mass, axial) = (table.get(Property::Mass), table.axial());
@@ -428,7 +435,7 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension, P: FnMut(usize, bool, bool,
     fn with_simd<V: Simd>(mut self, cpu: V) {
         for e in (0..self.table.len()).step_by(V::F64_LANES) {
             let acting = batch_forces::<Lanes<V, D>, S, W, B>(cpu, &self.source, e);
-            let length = Lanes::load(cpu, self.source.table[Property::Length as usize], e);
+            let length = Batch::<Lanes<V, D>> { cpu, rows: self.source.table, e }.get(Property::Length);
             add_to_nodes(cpu, self.out, e, length, &acting.ends);
             if acting.touching.any_positive() || acting.dry.any_positive() {
                 let (mut touching, mut dry) = ([0.0; MOST_LANES], [0.0; MOST_LANES]);
@@ -520,7 +527,7 @@ pub fn inertia<W: Water>(table: &Table, u: &Field, x: &Field, out: &mut Field) {
 
 struct Inertia<'a, W> {
     table: &'a Table,
-    properties: [&'a [f64]; PROPERTIES],
+    properties: Rows<'a>,
     u: [&'a [f64]; COMPONENTS],
     x: [&'a [f64]; COMPONENTS],
     out: &'a mut Field,
@@ -533,7 +540,7 @@ impl<W: Water> WithSimd for Inertia<'_, W> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) {
         for e in (0..self.table.len()).step_by(V::F64_LANES) {
-            let table = Batch::<Lanes<V, Spatial>> { cpu, rows: &self.properties, e };
+            let table = Batch::<Lanes<V, Spatial>> { cpu, rows: self.properties, e };
             let (length, measure, mass) = (table.get(Property::Length), table.get(Property::Measure), table.get(Property::Mass));
             let k = table.coefficients();
             let (u, x) = (Ends::load(cpu, &self.u, e, length), Ends::load(cpu, &self.x, e, length));
@@ -578,7 +585,7 @@ fn at_points<S: Stretch>(
     for e in 0..table.len() {
         let length = table.length_of(e);
         let (ends, others) = (Ends::gather(u, e, length), Ends::gather(other, e, length));
-        let axial = Batch::<f64> { cpu: (), rows: &rows, e }.axial();
+        let axial = Batch::<f64> { cpu: (), rows, e }.axial();
         for (g, shape) in SHAPES3.iter().enumerate() {
             let slope = |ends: &Ends<f64>| Vector3::from(ends.combine(&shape.slope)) / length;
             let (p, z) = (slope(&ends), ends.combine(&shape.value).z);

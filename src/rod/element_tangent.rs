@@ -156,7 +156,7 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> WithSimd for Assembly<'_, S
             }
             let geometric = geometric.map(|_| &tensions);
             let sum = batch_tangent::<V, S, W, B, D>(cpu, &source, e, weights, geometric);
-            let length = Lanes::load(cpu, source.table[Property::Length as usize], e);
+            let length = Batch::<Lanes<V, D>> { cpu, rows: source.table, e }.get(Property::Length);
             cpu.vectorize(Scatter { sum: &sum, matrix, first: e, length, count });
         }
     }
@@ -171,7 +171,7 @@ fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending, D: Dimension>(
     weights: &Weights,
     geometric: Option<&[[f64; MOST_LANES]; 3]>,
 ) -> ElementTangent<Lanes<V, D>> {
-    let table = Batch::<Lanes<V, D>> { cpu, rows: &source.table, e };
+    let table = Batch::<Lanes<V, D>> { cpu, rows: source.table, e };
     let (length, per_length, measure) =
         (table.get(Property::Length), table.get(Property::PerLength), table.get(Property::Measure));
     let (axial, coefficients) = (table.axial(), table.coefficients());

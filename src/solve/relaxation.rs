@@ -1,52 +1,66 @@
-//! Statics as motion without swing: backward Euler steps, each from rest.
+//! Statics as motion without swing: linearised steps of backward Euler, each from rest (pseudo-transient continuation, Kelley & Keyes 1998).
 //!
 //! ```text
-//! R(u + x, x/h, x/h²) = 0,   u ← u + x,   v ← 0
+//! (∂R/∂u + 1/h ∂R/∂v + 1/h² ∂R/∂a) x = -R(u, 0, 0),   u ← u + x
 //! ```
 //!
-//! Inertia and drag hold a line that has no stiffness of its own yet (slack, weightless, drifting with a current), so that every
-//! step has a solution near by; energy only falls, since what the line gains in speed is dropped after every step. h grows while
-//! steps succeed, and a step of h = ∞ is Newton's method on statics.
+//! Inertia and drag hold a line that has no stiffness of its own yet (slack, weightless, drifting with a current), so that it moves
+//! as a real line would, only without swing. The geometric part of the stiffness uses the tension predicted to first order from the
+//! last step, as in the direct attempt of statics: a stiff line then turns by a tenth in one step, where a search along the step
+//! would stop at the first stretch. h is governed by how far the line turns, and a step of h = ∞ is Newton's method.
 
 use crate::rod::element::Weights;
 use crate::rod::line::Line;
-use crate::rod::state::State;
-use crate::solve::newton::{Criteria, Newton};
+use crate::rod::state::{Field, State};
+use crate::solve::newton::{Newton, motion};
+use crate::solve::statics::{LONGEST_STEP, largest_slope};
 
-/// h after a step that was solved, as a multiple of the one before.
-const LONGER: f64 = 4.0;
-/// The same after a step that was not.
-const SHORTER: f64 = 0.125;
-/// Shares of the first h between which h stays.
-const RANGE: [f64; 2] = [1e-7, 1e7];
+/// Turn per step that h is chosen for [-].
+const TURN: f64 = 0.1;
+/// Bounds of the ratio of h to the one before.
+const CHANGE: [f64; 2] = [0.25, 1.3];
+/// The same after a step that could not be made.
+const SHORTER: f64 = 0.1;
 
 /// A line on its way to rest.
 pub struct Relaxation {
-    criteria: Criteria,
-    first: f64,
     h: f64,
-    trial: State,
+    tension: Vec<f64>,
+    step: Field,
+    from: Field,
 }
 
 impl Relaxation {
-    /// Begins with steps of `h` [s].
-    pub fn new(line: &dyn Line, h: f64) -> Relaxation {
-        let mesh = line.mesh();
-        let criteria = Criteria { tolerance: 1e-8, length: mesh.length, iterations: 12 };
-        Relaxation { criteria, first: h, h, trial: State::new(mesh.nodes()) }
+    /// Begins from a state with a step of `h` [s].
+    pub fn new(line: &dyn Line, state: &State, h: f64) -> Relaxation {
+        let nodes = line.mesh().nodes();
+        let mut tension = vec![0.0; 3 * line.mesh().elements.len()];
+        line.tensions(&state.u, &state.v, &mut tension);
+        Relaxation { h, tension, step: Field::new(nodes), from: Field::new(nodes) }
     }
 
-    /// Tries a step; false once steps have become too short to go on.
-    pub fn step(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State) -> bool {
+    /// Makes a step from a state whose residual is given.
+    pub fn step(&mut self, line: &dyn Line, newton: &mut Newton, residual: &Field, state: &mut State) {
         let weights = Weights { u: 1.0, v: 1.0 / self.h, a: 1.0 / (self.h * self.h) };
-        self.trial.copy_from(state);
-        newton.forget();
-        let solved = newton.solve(line, &weights, &mut self.trial, &self.criteria).is_ok();
-        // A search that ran out of iterations stopped where the energy was less, which is as good a place to start from.
-        if solved || self.trial.u.numbers().all(|x| x.is_finite()) {
-            state.u.copy_from(&self.trial.u);
+        let factored = newton.factor(line, &motion(state), &weights, Some(&self.tension)).is_ok();
+        self.from.copy_from(&state.u);
+        self.step.copy_from(residual);
+        newton.solve_linear(line, &mut self.step);
+        let turn = largest_slope(&self.step, line.mesh().length);
+        if !factored || !turn.is_finite() {
+            self.h *= SHORTER;
+            return;
         }
-        self.h = (self.h * if solved { LONGER } else { SHORTER }).min(RANGE[1] * self.first);
-        self.h > RANGE[0] * self.first
+        let scale = -(LONGEST_STEP / turn).min(1.0);
+        self.step.data_mut().iter_mut().for_each(|x| *x *= scale);
+        line.linear_tensions(&state.u, &self.step, &mut self.tension);
+        state.u.set_sum([(1.0, &self.from), (1.0, &self.step)]);
+        self.h *= (TURN / turn).clamp(CHANGE[0], CHANGE[1]);
+    }
+
+    /// Takes the last step back.
+    pub fn undo(&mut self, state: &mut State) {
+        state.u.copy_from(&self.from);
+        self.h *= SHORTER;
     }
 }

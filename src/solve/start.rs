@@ -1,7 +1,9 @@
 //! First guess of statics: the elastic catenary of the line's mean weight and stiffness, laid on the bed or floating at the surface.
 
+use crate::algebra::shape::SHAPES3;
 use crate::rod::catenary::{Catenary, Span};
-use crate::rod::mesh::Mesh;
+use crate::rod::element::Ends;
+use crate::rod::mesh::{Mesh, Properties};
 use crate::rod::seabed::Plane;
 use crate::rod::state::Field;
 use nalgebra::Vector3;
@@ -40,6 +42,43 @@ pub fn guess(mesh: &Mesh, bounds: &Bounds, anchor: &Vector3<f64>, fairlead: &Vec
     }
     u.set_position(0, anchor);
     u.set_position(last, fairlead);
+}
+
+/// Weight in water below which a line counts as weightless, as a share of its weight in air.
+const WEIGHTLESS: f64 = 1.0e-9;
+/// Largest stretch |r′| of a line made slack.
+const SLACK: f64 = 1.0 - 1.0e-6;
+
+/// A shape near `u` in which a weightless line that is too long is nowhere stretched; none for other lines. Where nothing else pulls at the
+/// line, every such shape is in equilibrium. What elements make of a catenary is stretched here and there, so it is drawn
+/// towards the chord until it is not; |r′| is convex, so a share θ of the way is enough:
+///
+/// ```text
+/// |r′| ≤ (1 - θ) max |r′_u| + θ |chord|/L = 1
+/// ```
+pub fn slackened(mesh: &Mesh, u: &Field) -> Option<Field> {
+    let slack = |p: &Properties| p.weight.abs() < WEIGHTLESS * p.weight_in_air && p.tension_floor() == 0.0;
+    let anchor = u.position(0);
+    let chord = (u.position(mesh.nodes() - 1) - anchor) / mesh.length;
+    let least = chord.norm();
+    if !mesh.sections.iter().all(slack) || !(least < SLACK) {
+        return None;
+    }
+    let mut stretch: f64 = SLACK;
+    for (e, element) in mesh.elements.iter().enumerate().filter(|(_, element)| !element.is_joint()) {
+        let ends = Ends::gather(u, e, element.length);
+        for shape in &SHAPES3 {
+            stretch = stretch.max(Vector3::from(ends.combine(&shape.slope)).norm() / element.length);
+        }
+    }
+    let share = (stretch - SLACK) / (stretch - least);
+    let mut slackened = u.clone();
+    for node in 0..mesh.nodes() {
+        let straight = anchor + chord * mesh.node_arc_length(node);
+        slackened.set_position(node, &u.position(node).lerp(&straight, share));
+        slackened.set_slope(node, &u.slope(node).lerp(&chord, share));
+    }
+    Some(slackened)
 }
 
 impl Frame {

@@ -3,14 +3,15 @@
 //! From the catenary guess, Newton's method on (K + μ M) δ = -R, where the geometric part of K uses the tension predicted to first
 //! order from the last step (the path of a mixed method, without its unknowns), and μ falls with the residual. A line without
 //! bending stiffness carries no compression, so its energy is convex and any start leads to an equilibrium; what may need
-//! patience is a pile of slack line, whose equilibrium is not unique.
+//! patience is a pile of slack line, whose equilibrium is not unique. A force in balance is one within 1e-6 of weight or end tension, or
+//! within what rounding of the positions makes of it, where that is more (`rounding`).
 
 use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::newton::{Newton, motion};
 use crate::solve::relaxation::Relaxation;
-use crate::solve::search;
+use crate::solve::{rounding, search, start};
 
 /// How an attempt ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,40 +36,58 @@ impl Balance {
     fn judged(self) -> Balance {
         Balance { allowed: self.allowed * (PROMISED / AIMED), ..self }
     }
+
+    /// The same balance where `more` is allowed, if that is more [N].
+    fn within(self, more: f64) -> Balance {
+        Balance { allowed: self.allowed.max(more), ..self }
+    }
 }
 
 /// Largest change of a slope in one iteration [-].
-const LONGEST_STEP: f64 = 0.4;
+pub(in crate::solve) const LONGEST_STEP: f64 = 0.4;
 /// Unbalanced force that is aimed at, relative to the line's weight or end tension.
 const AIMED: f64 = 1.0e-7;
 /// Unbalanced force that counts as equilibrium where no more is to be had.
 const PROMISED: f64 = 1.0e-6;
+/// Unbalanced force up to which a shape without tension is a better start than a taut one, relative like the others: that of a weightless
+/// line whose end is awash or in air.
+const LITTLE: f64 = 0.1;
 
 /// Brings `state` (ends in place) to equilibrium; v and a are zero on return. `soften` makes the same line with its EA limited [N].
 pub fn settle(line: &dyn Line, soften: &dyn Fn(f64) -> Box<dyn Line>, newton: &mut Newton, state: &mut State) -> Balance {
     state.v.fill(0.0);
     state.a.fill(0.0);
-    let start = state.u.clone();
+    let mut start = state.u.clone();
     let mut walk = Walk::new(line);
-    let direct = walk.run(line, newton, state, &Attempt { iterations: 25, inertia: 0.0, mixed: true, allowed: AIMED });
+    let direct = walk.go(line, newton, state, &Attempt { iterations: 25, way: Way::Mixed, allowed: AIMED });
+    let mut iterations = direct.iterations;
     if direct.converged() {
         return direct;
     }
+    let judged = direct.within(rounding(line, state));
+    if judged.converged() {
+        return judged;
+    }
     let mut best = (direct, state.u.clone());
-    let mut iterations = direct.iterations;
-    for fallback in FALLBACKS {
-        let reached = match &fallback {
-            Fallback::Relax => {
-                state.u.copy_from(&best.1);
-                walk.relax(line, newton, state, &mut iterations)
-            }
-            Fallback::Climb(ladder) => {
-                state.u.copy_from(&start);
-                walk.climb(line, soften, newton, state, ladder, &mut iterations)
-            }
-        };
-        if reached.judged().converged() {
-            return Balance { iterations, ..reached.judged() };
+    if let Some(slackened) = start::slackened(line.mesh(), &start) {
+        state.u.copy_from(&slackened);
+        let slack = Balance { iterations, ..walk.balance(line, state, AIMED) };
+        if slack.converged() {
+            return slack;
+        }
+        if slack.residual < LITTLE / AIMED * slack.allowed {
+            best = (slack, slackened.clone());
+            start = slackened;
+        }
+    }
+    for fallback in &FALLBACKS {
+        if fallback.anew {
+            state.u.copy_from(&start);
+        }
+        let reached = walk.climb(line, soften, newton, state, fallback, &mut iterations);
+        let judged = reached.judged().within(rounding(line, state));
+        if judged.converged() {
+            return Balance { iterations, ..judged };
         }
         if reached.residual < best.0.residual {
             best = (reached, state.u.clone());
@@ -78,44 +97,52 @@ pub fn settle(line: &dyn Line, soften: &dyn Fn(f64) -> Box<dyn Line>, newton: &m
     Balance { iterations, ..best.0.judged() }
 }
 
-/// Ways to stiffen a softened line step by step.
-struct Ladder {
+/// What is tried where Newton's method alone does not reach equilibrium: a softened line first, then stiffer ones, then the line itself.
+struct Fallback {
+    /// From the first guess, instead of from where the last attempt ended.
+    anew: bool,
     /// EA of the first line, as a multiple of the line's weight.
     softest: f64,
     /// Ratio of EA between lines.
     ratio: f64,
     /// Iterations on each line, and on the last.
     iterations: [usize; 2],
-    /// First μ on each line, as a multiple of weight / (mass · length).
-    inertia: f64,
+    /// Unbalanced force that is good enough on the softened lines.
+    allowed: f64,
+    /// How.
+    way: Way,
 }
 
-/// What is tried where Newton's method alone does not reach equilibrium.
-enum Fallback {
-    /// Motion without swing, from the best state so far.
-    Relax,
-    /// A softened line first.
-    Climb(Ladder),
-}
-
-const FALLBACKS: [Fallback; 3] = [
-    Fallback::Climb(Ladder { softest: 10.0, ratio: 10.0, iterations: [60, 400], inertia: 1.0 }),
-    Fallback::Relax,
-    Fallback::Climb(Ladder { softest: 3.0, ratio: 3.0, iterations: [80, 600], inertia: 30.0 }),
+/// Relaxation of softened lines goes on to forces as small as the drag of a slow current, of which the shape of a slack line depends.
+const FALLBACKS: [Fallback; 4] = [
+    Fallback { anew: true, softest: 10.0, ratio: 10.0, iterations: [60, 400], allowed: 1e-3, way: Way::Search { inertia: 1.0 } },
+    Fallback { anew: false, softest: f64::INFINITY, ratio: 1.0, iterations: [0, 500], allowed: AIMED, way: Way::Relax },
+    Fallback { anew: true, softest: 10.0, ratio: 4.0, iterations: [200, 500], allowed: 1e-6, way: Way::Relax },
+    Fallback { anew: true, softest: 3.0, ratio: 3.0, iterations: [80, 600], allowed: 1e-3, way: Way::Search { inertia: 30.0 } },
 ];
-/// Newton iterations of a relaxation.
-const RELAXING: usize = 600;
 /// First step of a relaxation, as a share of √(mass · length / weight).
 const FIRST_STEP: f64 = 0.1;
 
-/// One way to walk to equilibrium.
+/// How to walk to equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Way {
+    /// Newton's method with the tension predicted to first order in the geometric stiffness; whole steps.
+    Mixed,
+    /// Newton's method with a search along each step.
+    Search {
+        /// First μ, as a multiple of weight / (mass · length).
+        inertia: f64,
+    },
+    /// Motion without swing.
+    Relax,
+}
+
+/// One walk to equilibrium.
 struct Attempt {
     /// Iterations at most.
     iterations: usize,
-    /// First μ, as a multiple of weight / (mass · length); 0: none unless the tangent is singular.
-    inertia: f64,
-    /// Use the tension predicted to first order in the geometric stiffness, and take whole steps; else search along each step.
-    mixed: bool,
+    /// How.
+    way: Way,
     /// Unbalanced force that is good enough, relative to weight or end tension.
     allowed: f64,
 }
@@ -141,51 +168,68 @@ impl Walk {
         soften: &dyn Fn(f64) -> Box<dyn Line>,
         newton: &mut Newton,
         state: &mut State,
-        ladder: &Ladder,
+        fallback: &Fallback,
         iterations: &mut usize,
     ) -> Balance {
-        let mesh = line.mesh();
-        let [on_each, on_last] = ladder.iterations;
+        let (mesh, way) = (line.mesh(), fallback.way);
+        let [on_each, on_last] = fallback.iterations;
         let stiffest = mesh.sections.iter().map(|section| section.ea).fold(0.0, f64::max);
-        let mut limit = ladder.softest * mesh.total_weight().max(1e-6 * stiffest);
+        let mut limit = fallback.softest * mesh.total_weight().max(1e-6 * stiffest);
         while limit < stiffest {
-            let soft = soften(limit);
-            let attempt = Attempt { iterations: on_each, inertia: ladder.inertia, mixed: false, allowed: 1e-3 };
-            *iterations += self.run(soft.as_ref(), newton, state, &attempt).iterations;
-            limit *= ladder.ratio;
+            let attempt = Attempt { iterations: on_each, way, allowed: fallback.allowed };
+            *iterations += self.go(soften(limit).as_ref(), newton, state, &attempt).iterations;
+            limit *= fallback.ratio;
         }
-        let attempt = Attempt { iterations: on_last, inertia: ladder.inertia, mixed: false, allowed: AIMED };
-        let balance = self.run(line, newton, state, &attempt);
+        let balance = self.go(line, newton, state, &Attempt { iterations: on_last, way, allowed: AIMED });
         *iterations += balance.iterations;
         balance
     }
 
-    /// Lets the line sink to rest.
-    fn relax(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, iterations: &mut usize) -> Balance {
-        let attempt = Attempt { iterations: 0, inertia: 0.0, mixed: false, allowed: AIMED };
-        let mut relaxation = Relaxation::new(line, FIRST_STEP / unit_of_inertia(line).sqrt());
-        let mut balance = self.balance(line, state, &attempt);
-        let before = newton.effort.iterations;
-        let spent = |newton: &Newton| newton.effort.iterations - before;
-        while !balance.converged() && spent(newton) < RELAXING && relaxation.step(line, newton, state) {
-            balance = self.balance(line, state, &attempt);
+    fn go(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
+        match attempt.way {
+            Way::Mixed => self.run(line, newton, state, attempt, 0.0),
+            Way::Search { inertia } => self.run(line, newton, state, attempt, inertia),
+            Way::Relax => self.relax(line, newton, state, attempt),
         }
-        *iterations += spent(newton);
-        balance
     }
 
-    fn run(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
+    /// Lets the line sink to rest; leaves it where it was nearest to equilibrium.
+    fn relax(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
+        let mut balance = self.balance(line, state, attempt.allowed);
+        let mut best = (balance, state.u.clone());
+        let mut relaxation = Relaxation::new(line, state, FIRST_STEP / unit_of_inertia(line).sqrt());
+        let mut iterations = 0;
+        while !balance.converged() && iterations < attempt.iterations {
+            iterations += 1;
+            relaxation.step(line, newton, &self.residual, state);
+            balance = self.balance(line, state, attempt.allowed);
+            if !balance.residual.is_finite() {
+                relaxation.undo(state);
+                balance = self.balance(line, state, attempt.allowed);
+            }
+            if balance.residual < best.0.residual {
+                best.0 = balance;
+                best.1.copy_from(&state.u);
+            }
+        }
+        state.u.copy_from(&best.1);
+        Balance { iterations, ..best.0 }
+    }
+
+    /// Newton's method with inertia μ, which rises where steps fail.
+    fn run(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt, inertia: f64) -> Balance {
         let mesh = line.mesh();
+        let mixed = attempt.way == Way::Mixed;
         let unit = unit_of_inertia(line);
-        let mut mu = attempt.inertia * unit;
+        let mut mu = inertia * unit;
         line.tensions(&state.u, &state.v, &mut self.tension);
-        let mut balance = self.balance(line, state, attempt);
+        let mut balance = self.balance(line, state, attempt.allowed);
         for iteration in 1..=attempt.iterations {
             if balance.converged() {
                 break;
             }
             let weights = Weights { u: 1.0, v: 0.0, a: mu };
-            let geometric = attempt.mixed.then_some(&self.tension[..]);
+            let geometric = mixed.then_some(&self.tension[..]);
             let factored = newton.factor(line, &motion(state), &weights, geometric).is_ok();
             self.step.copy_from(&self.residual);
             newton.solve_linear(line, &mut self.step);
@@ -196,8 +240,7 @@ impl Walk {
                 self.step.data_mut().iter_mut().for_each(|x| *x *= scale);
                 line.linear_tensions(&state.u, &self.step, &mut self.tension);
                 self.from.copy_from(&state.u);
-                length =
-                    if attempt.mixed { self.move_by(1.0, line, state).map_or(0.0, |_| 1.0) } else { self.search(line, state) };
+                length = if mixed { self.move_by(1.0, line, state).map_or(0.0, |_| 1.0) } else { self.search(line, state) };
                 if length == 0.0 {
                     state.u.copy_from(&self.from);
                 }
@@ -212,7 +255,7 @@ impl Walk {
             if length == 0.0 {
                 mu = (10.0 * mu).max(1e-3 * unit);
             }
-            balance = Balance { iterations: iteration, ..self.balance(line, state, attempt) };
+            balance = Balance { iterations: iteration, ..self.balance(line, state, attempt.allowed) };
         }
         balance
     }
@@ -237,14 +280,19 @@ impl Walk {
         }
     }
 
-    /// The unbalanced force at a state; leaves the residual in place.
-    fn balance(&mut self, line: &dyn Line, state: &State, attempt: &Attempt) -> Balance {
+    /// The unbalanced force at a state, and what of it is allowed, as a share of weight or end tension; leaves the residual in place.
+    fn balance(&mut self, line: &dyn Line, state: &State, share: f64) -> Balance {
         self.evaluate(line, state);
         let end_tension = line.end_force(&motion(state)).norm();
         let (residual, node) = largest_force(line, &self.residual);
-        let allowed = attempt.allowed * (line.mesh().total_weight() + line.burden()).max(end_tension).max(f64::MIN_POSITIVE);
+        let allowed = share * (line.mesh().total_weight() + line.burden()).max(end_tension).max(f64::MIN_POSITIVE);
         Balance { iterations: 0, residual, allowed, node }
     }
+}
+
+/// Force out of balance that is no more than rounding [N].
+fn rounding(line: &dyn Line, state: &State) -> f64 {
+    largest_force(line, &rounding::bound(line, state)).0
 }
 
 /// Unit of μ: weight / (mass · length) [1/s²].
@@ -272,7 +320,8 @@ fn largest_force(line: &dyn Line, residual: &Field) -> (f64, usize) {
     largest
 }
 
-fn largest_slope(step: &Field, length: f64) -> f64 {
+/// Largest turn of a step [-], moves counted by half the length of the line.
+pub(in crate::solve) fn largest_slope(step: &Field, length: f64) -> f64 {
     let mut largest: f64 = 0.0;
     for c in 0..COMPONENTS {
         let scale = if c < 3 { 2.0 / length } else { 1.0 };
