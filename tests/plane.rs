@@ -48,7 +48,17 @@ fn a_planar_line_has_the_forces_that_it_has_in_space() {
     let current = r#"environment.current=[{"z": 0, "velocity": [0.8, 0, 0]}, {"z": -120, "velocity": [0.1, 0, 0]}]"#;
     let stiff = "line_types.chain.ei=1e6";
     let rough = "environment.seabed.friction=0.4";
-    for sets in [&[][..], &[current], &[stiff], &[current, stiff], &[rough]] {
+    let (report, pressures) = ("solver.stretch=report", "solver.hydrostatic_strain=true");
+    for sets in [
+        &[][..],
+        &[current],
+        &[stiff],
+        &[current, stiff],
+        &[rough],
+        &[report],
+        &[report, pressures],
+        &[current, pressures, stiff],
+    ] {
         let scene = scene(sets);
         let path = Path::of_scene(&scene, 0);
         let apart = difference(&mut both(&scene, &path), &path, 0.0, 20.0);
@@ -83,7 +93,6 @@ fn what_goes_across_the_plane_is_seen() {
         "environment.seabed.slope_deg=[0, 1]",
         "lines.0.anchor=[1183.97, 1, -120]",
         r#"environment.waves={"kind": "regular", "amplitude": 1, "period": 8}"#,
-        "solver.stretch=report",
     ] {
         let scene = scene(&[across]);
         let path = Path::of_scene(&scene, 0);

@@ -34,7 +34,7 @@ pub struct Surroundings {
     pub ground: Option<Ground>,
     /// The water surface, where it is pierced.
     pub surface: Option<Surface>,
-    /// The line stays in a plane of constant y, and so do all forces on it: see `knows_plane` for what may be so.
+    /// The line stays in a plane of constant y, and so do all forces on it. In waves this is not made use of.
     pub planar: bool,
 }
 
@@ -85,13 +85,8 @@ impl Surroundings {
 /// The line of a mesh with the physics that it needs.
 pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
     let special = mesh.is_special();
-    if surroundings.planar && knows_plane(&surroundings, &mesh) {
-        let stiff = mesh.sections.iter().any(|section| section.ei > 0.0);
-        return if stiff {
-            in_plane::<Stiff>(mesh, surroundings, supports)
-        } else {
-            in_plane::<Flexible>(mesh, surroundings, supports)
-        };
+    if surroundings.planar && surroundings.waves.is_none() {
+        return in_plane(mesh, surroundings, supports);
     }
     // Lines with tables or pressures are few: they carry the terms of bending whether they need them or not.
     match (surroundings.stretch, special) {
@@ -102,15 +97,26 @@ pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<
     }
 }
 
-/// Whether there is a planar loop for this: for the usual lines, which stretch by Hooke's law, in still water or in a current.
-pub fn knows_plane(around: &Surroundings, mesh: &Mesh) -> bool {
-    around.stretch == types::Stretch::Exact && !mesh.is_special() && around.waves.is_none()
-}
-
-fn in_plane<B: Bending>(mesh: Mesh, around: Surroundings, supports: Supports) -> Box<dyn Line> {
-    match around.current.clone() {
-        Some(current) => finish::<Exact<Hooke>, Current, B, Planar>(mesh, current, around, supports),
-        None => finish::<Exact<Hooke>, Still, B, Planar>(mesh, Still, around, supports),
+fn in_plane(mesh: Mesh, around: Surroundings, supports: Supports) -> Box<dyn Line> {
+    let flow = around.current.clone().unwrap_or_default();
+    let stiff = mesh.sections.iter().any(|section| section.ei > 0.0);
+    // What is rarer than Hooke's law by engineering strain carries terms of bending and of a current whether it needs them or not.
+    match (around.stretch, mesh.is_special(), around.current.is_some(), stiff) {
+        (types::Stretch::Exact, false, false, false) => {
+            finish::<Exact<Hooke>, Still, Flexible, Planar>(mesh, Still, around, supports)
+        }
+        (types::Stretch::Exact, false, false, true) => {
+            finish::<Exact<Hooke>, Still, Stiff, Planar>(mesh, Still, around, supports)
+        }
+        (types::Stretch::Exact, false, true, false) => {
+            finish::<Exact<Hooke>, Current, Flexible, Planar>(mesh, flow, around, supports)
+        }
+        (types::Stretch::Exact, false, true, true) => {
+            finish::<Exact<Hooke>, Current, Stiff, Planar>(mesh, flow, around, supports)
+        }
+        (types::Stretch::Report, false, ..) => finish::<Report<Hooke>, Current, Stiff, Planar>(mesh, flow, around, supports),
+        (types::Stretch::Exact, true, ..) => finish::<Exact<Tabulated>, Current, Stiff, Planar>(mesh, flow, around, supports),
+        (types::Stretch::Report, true, ..) => finish::<Report<Tabulated>, Current, Stiff, Planar>(mesh, flow, around, supports),
     }
 }
 

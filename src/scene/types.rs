@@ -317,7 +317,8 @@ pub struct Section {
     pub elements: Option<usize>,
 }
 
-/// A clump weight or buoy on the line: a small body at one point of it. It rests on the seabed where it reaches it.
+/// A clump weight or buoy on the line: a small body at one point of it. It rests on the seabed where it reaches it. At a pinned end it hangs on
+/// what holds the end: force and tension there contain it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Attachment {

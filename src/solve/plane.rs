@@ -4,22 +4,14 @@
 //! promised later on, goes on in space.
 
 use crate::rod::line::Supports;
-use crate::rod::mesh::Mesh;
-use crate::rod::physics::{self, Decision, Surroundings};
+use crate::rod::physics::{Decision, Surroundings};
 use crate::rod::seabed::Plane;
 use crate::scene::types::{self, Scene, Scheme};
 use crate::sea::current::Current;
 use crate::solve::motion::Path;
 
 /// Whether a line whose fairlead takes a path (none: any) is solved in a plane, and why.
-pub fn decision(
-    scene: &Scene,
-    line: &types::Line,
-    around: &Surroundings,
-    supports: &Supports,
-    mesh: &Mesh,
-    path: Option<&Path>,
-) -> Decision {
+pub fn decision(scene: &Scene, line: &types::Line, around: &Surroundings, supports: &Supports, path: Option<&Path>) -> Decision {
     let [y, fairlead] = [line.anchor[1], line.fairlead[1]];
     let across = |current: &Current| current.flows_across();
     let obstacle = if scene.solver.scheme == Scheme::Cable1994 {
@@ -34,8 +26,8 @@ pub fn decision(
         Some("the bed slopes across")
     } else if !supports.holds.is_empty() {
         Some("constraints are solved in space")
-    } else if !physics::knows_plane(around, mesh) {
-        Some("waves, tables, pressures and the report's law are solved in space")
+    } else if around.waves.is_some() {
+        Some("waves are solved in space")
     } else {
         None
     };

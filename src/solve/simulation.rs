@@ -195,7 +195,7 @@ impl Simulation {
         let mut surroundings = Surroundings::of(scene, &mesh);
         let decisions = report.unwrap_or_else(|| {
             let mut decisions = physics::decisions(scene, &mesh, &supports);
-            let plane = plane::decision(scene, &scene.lines[index], &surroundings, &supports, &mesh, path);
+            let plane = plane::decision(scene, &scene.lines[index], &surroundings, &supports, path);
             surroundings.planar = !plane.on;
             decisions.extend([plane, rest::decision(scene, &supports)]);
             decisions

@@ -7,7 +7,7 @@ segments. `--quick` runs each scheme on the built-in case at default settings, a
 error is above what is promised (0.1 % rms, 0.2 % at most); it never fails on time.
 
 Time: `solver_seconds` of summary.json, the loop of time steps alone; of MoorDyn, the process's CPU time of the loop of its steps. The
-smallest of several runs. Error: of the tension at the fairlead against a converged reference: of the built-in case
+smallest of several runs, some in a row and some in turn with all others. Error: of the tension at the fairlead against a converged reference: of the built-in case
 tests/data/lindahl_sjoberg_tension.csv; of the others our own `esdirk3` on a fine mesh with fixed fine steps, which MoorDyn's finest
 line cross-checks.
 """
@@ -15,6 +15,7 @@ line cross-checks.
 import json
 import math
 import sys
+from functools import partial
 
 from measure import ROOT, SCHEMES, Failed, Run, errors, fastest, in_environment, judged, machine, on_one_core, put, reference, table
 
@@ -34,6 +35,26 @@ FEW = "--few" in sys.argv
 STORE = ROOT / "target/bench"
 
 
+def seconds_of(scene, solver):
+    """Time of one run of moorline [s]."""
+    return Run(scene, **solver).seconds
+
+
+def peer_seconds(case, segments, scheme, steps):
+    """Time of one run of MoorDyn [s]."""
+    return peer.run(case.scene, segments, scheme, steps)[1]
+
+
+def time_again(points, runs):
+    """Times every point in turn, round after round: a processor that is slow for some seconds is so for all of them."""
+    for _ in range(runs):
+        for point in points:
+            if "again" in point and point["seconds"] < 2.5:
+                point["seconds"] = min(point["seconds"], point["again"]())
+    for point in points:
+        point.pop("again", None)
+
+
 def ours(case, exact, runs):
     """Points of moorline: each scheme with step control, the mesh left to the program or given, tolerances over three decades."""
     for elements in [None] if FEW else [None, *MESHES]:
@@ -41,15 +62,17 @@ def ours(case, exact, runs):
             for scheme in SCHEMES:
                 settings = f"{f'{elements} elements' if elements else 'automatic mesh'}, tolerance {tolerance:g}"
                 point = {"program": "moorline", "scheme": scheme, "elements": elements, "tolerance": tolerance, "settings": settings}
+                scene, solver = with_mesh(case.scene, elements), {"scheme": scheme, "tolerance": tolerance}
                 try:
-                    run = fastest(with_mesh(case.scene, elements), runs, scheme=scheme, tolerance=tolerance)
+                    run = fastest(scene, runs, **solver)
                 except Failed as failure:
                     yield {**point, "failed": str(failure)}
                     continue
                 rms, largest = errors(case, judged(case, run.times, run.tension), exact)
                 work = {key: run.summary[key] for key in ("steps", "newton_iterations", "element_iterations")}
                 used = run.summary["elements"]
-                yield {**point, "used": used, "rms": rms, "largest": largest, "seconds": run.seconds, **work}
+                again = partial(seconds_of, scene, solver)
+                yield {**point, "used": used, "rms": rms, "largest": largest, "seconds": run.seconds, **work, "again": again}
 
 
 def seldom(case, exact, runs):
@@ -58,14 +81,15 @@ def seldom(case, exact, runs):
     for every in (3, 5):
         step = every * row
         scene = altered(case.scene, run={"output_step": step})
-        for tolerance in (2e-2, 1.5e-2, 1e-2):
+        for tolerance in (2.5e-2, 2e-2, 1e-2):
             for scheme in SCHEMES:
                 settings = f"automatic mesh, tolerance {tolerance:g}, rows every {step:g} s"
                 point = {"program": "moorline", "scheme": scheme, "elements": None, "tolerance": tolerance, "settings": settings}
                 run = fastest(scene, runs, scheme=scheme, tolerance=tolerance, max_step=step)
                 rms, largest = errors(case, judged(case, run.times, run.tension), exact[::every])
                 work = {"used": run.summary["elements"], "steps": run.summary["steps"], "seconds": run.seconds}
-                yield {**point, "seldom": True, "rms": rms, "largest": largest, **work}
+                again = partial(seconds_of, scene, {"scheme": scheme, "tolerance": tolerance, "max_step": step})
+                yield {**point, "seldom": True, "rms": rms, "largest": largest, **work, "again": again}
 
 
 def of_1994(case, runs):
@@ -139,10 +163,11 @@ def theirs(case, exact, runs):
                 steps = math.ceil(1.2 * steps)
             rms, largest, seconds = found
             for _ in range(runs - 1 if seconds < 5.0 else 0):
-                seconds = min(seconds, peer.run(case.scene, segments, scheme, steps)[1])
+                seconds = min(seconds, peer_seconds(case, segments, scheme, steps))
+            again = partial(peer_seconds, case, segments, scheme, steps)
             settings = f"{segments} segments, step {1e3 * row / steps:.2g} ms"
             count = steps * round(case.scene["run"]["duration"] / row)
-            yield {**point, "settings": settings, "rms": rms, "largest": largest, "seconds": seconds, "steps": count}
+            yield {**point, "settings": settings, "rms": rms, "largest": largest, "seconds": seconds, "steps": count, "again": again}
 
 
 def percent(x):
@@ -194,7 +219,7 @@ def report(case, points):
             finest = max(peers, key=lambda p: (p["elements"], p["scheme"]))
             ratio = finest["seconds"] / default["seconds"]
             lines += [
-                f"MoorDyn with {finest['elements']} segments ({finest['scheme']}) takes {ratio:.2g} times as long at an rms error of "
+                f"MoorDyn with {finest['elements']} segments ({finest['scheme']}) takes {ratio:.{0 if ratio >= 10 else 2}f} times as long at an rms error of "
                 f"{percent(finest['rms'])}, which is also how well the two programs' answers agree."
             ]
     return "\n".join(lines)
@@ -287,7 +312,8 @@ def main():
                     sources.remove(source)
                 else:
                     points.append(point)
-                    print(case.name, json.dumps(point), flush=True)
+                    print(case.name, json.dumps({key: value for key, value in point.items() if key != "again"}), flush=True)
+        time_again(points, runs)
         points.sort(key=lambda p: p["program"] == "MoorDyn")
         (STORE / f"work-precision-{case.name}.json").write_text(json.dumps(points, indent=1), encoding="utf-8")
         text = report(case, points)
