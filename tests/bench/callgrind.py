@@ -16,7 +16,7 @@ def ready():
     """Ends the program where nothing can be counted."""
     if shutil.which("valgrind") is None:
         sys.exit("valgrind is missing (Debian: apt-get install valgrind)")
-    flags = re.search(r"^flags\s*:(.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.M)
+    flags = re.search(r"^flags\s*:(.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE)
     if flags is None or not {"avx2", "fma"} <= set(flags.group(1).split()):
         sys.exit("this machine has no AVX2 and FMA: its count would be that of another kernel")
 

@@ -144,7 +144,7 @@ def reference(case):
 def put(name, command, text):
     """Replaces a block of docs/benchmarks.md, which must be there."""
     document = DOCUMENT.read_text(encoding="utf-8")
-    pattern = re.compile(rf"<!-- begin {re.escape(name)}\b.*?-->.*?<!-- end {re.escape(name)} -->", re.S)
+    pattern = re.compile(rf"<!-- begin {re.escape(name)}\b.*?-->.*?<!-- end {re.escape(name)} -->", re.DOTALL)
     block = f"<!-- begin {name} (made by `{command}`) -->\n{text.strip()}\n<!-- end {name} -->"
     if not pattern.search(document):
         sys.exit(f"{DOCUMENT} has no block {name}")

@@ -10,7 +10,17 @@ scheme at 1e-2 and 1e-3, and prints only.
 import copy
 import sys
 
-from measure import SCHEMES, Failed, Run, errors, judged, on_one_core, put, reference, table
+from measure import (
+    SCHEMES,
+    Failed,
+    Run,
+    errors,
+    judged,
+    on_one_core,
+    put,
+    reference,
+    table,
+)
 from scenes import CASES
 
 TOLERANCES = [1e-2, 1e-3, 1e-4]

@@ -17,7 +17,21 @@ import math
 import sys
 from functools import partial
 
-from measure import ROOT, SCHEMES, Failed, Run, errors, fastest, in_environment, judged, machine, on_one_core, put, reference, table
+from measure import (
+    ROOT,
+    SCHEMES,
+    Failed,
+    Run,
+    errors,
+    fastest,
+    in_environment,
+    judged,
+    machine,
+    on_one_core,
+    put,
+    reference,
+    table,
+)
 
 if "--without-peer" not in sys.argv:
     in_environment()
@@ -211,17 +225,17 @@ def report(case, points):
     if default:
         mine = (p for p in good if p["program"] == "moorline" and p["rms"] <= default["rms"] and p["largest"] <= default["largest"])
         quickest = min(mine, key=lambda p: p["seconds"])
-        lines += [
+        lines.append(
             f"Default settings take {milliseconds(default['seconds'])}; the fastest point of moorline that is as accurate "
             f"({quickest['scheme']}, {quickest['settings']}) takes {milliseconds(quickest['seconds'])}."
-        ]
+        )
         if peers:
             finest = max(peers, key=lambda p: (p["elements"], p["scheme"]))
             ratio = finest["seconds"] / default["seconds"]
-            lines += [
+            lines.append(
                 f"MoorDyn with {finest['elements']} segments ({finest['scheme']}) takes {ratio:.{0 if ratio >= 10 else 2}f} times as long at an rms error of "
                 f"{percent(finest['rms'])}, which is also how well the two programs' answers agree."
-            ]
+            )
     return "\n".join(lines)
 
 

@@ -42,16 +42,16 @@ def run(step: float = 0.1, velocities: bool = True, derivatives: bool = False, m
     references, orders = line.references(names), (c.c_int * 9)(*[1, 1, 1, 2, 2, 2, 1, 1, 1])
     tensions, seconds = {}, 0.0
     steps = [step] * round(END / step) if seed is None else random_steps(seed)
-    for index, step in enumerate(steps):
+    for index, own in enumerate(steps):
         line.move(surge, line.time, velocities)
         if derivatives:
             _, v, a = surge(line.time)
             values = (c.c_double * 9)(*v, *a, *a)
             assert line.call("fmi2SetRealInputDerivatives", references, c.c_size_t(9), orders, values) == OK
         begin = clock.perf_counter()
-        assert line.do_step(line.time, step) == OK, line.log
+        assert line.do_step(line.time, own) == OK, line.log
         seconds += clock.perf_counter() - begin
-        line.time = (index + 1) * step if seed is None else line.time + step
+        line.time = (index + 1) * own if seed is None else line.time + own
         tensions[round(line.time, 6)] = line.get_real("tension")[1][0]
     print(f"{seconds / len(steps) * 1e6:.1f} us per step; ", end="")
     line.free()
