@@ -273,8 +273,10 @@ impl<const B: usize, const M: usize> WithSimd for Elimination<'_, B, M> {
                 }
             }
         }
-        let mut centre = diagonal;
-        let mut diagonal = Columns::of(&a.diagonal[last], entries);
+        // The block in the middle is what the first half has left of it.
+        let centre = diagonal;
+        let block = |i: usize| if i == *middle { centre.clone() } else { Columns::of(&a.diagonal[i], entries) };
+        let mut diagonal = block(last);
         for i in (*middle + 1..=last).rev() {
             let (upper, lower) = (Columns::of(&a.upper[i - 1], entries), Columns::of(&a.lower[i - 1], entries));
             if !diagonal.invert(cpu) {
@@ -283,16 +285,12 @@ impl<const B: usize, const M: usize> WithSimd for Elimination<'_, B, M> {
             back[i] = diagonal.minus_product(cpu, &lower);
             forward[i] = upper.minus_product(cpu, &diagonal);
             inverse[i] = diagonal;
-            let next = if i - 1 == *middle { centre.clone() } else { Columns::of(&a.diagonal[i - 1], entries) };
-            diagonal = upper.product(cpu, &back[i], &next);
-            if i - 1 == *middle {
-                centre = diagonal.clone();
-            }
+            diagonal = upper.product(cpu, &back[i], &block(i - 1));
         }
-        if !centre.invert(cpu) {
+        if !diagonal.invert(cpu) {
             return Err(Singular { index: *middle });
         }
-        inverse[*middle] = centre;
+        inverse[*middle] = diagonal;
         Ok(())
     }
 }

@@ -1,5 +1,7 @@
 //! Where a cubic on [0, 1] is positive.
 
+use crate::algebra::lanes::Real;
+
 /// A part of [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -63,6 +65,15 @@ impl Cubic {
         let b = &self.0;
         let y = 1.0 - x;
         y * y * y * b[0] + 3.0 * y * y * x * b[1] + 3.0 * y * x * x * b[2] + x * x * x * b[3]
+    }
+
+    /// The same with an x in every lane.
+    #[inline(always)]
+    pub fn in_lanes<F: Real>(&self, x: F) -> F {
+        let b = &self.0;
+        let y = -x + 1.0;
+        let (low, high) = (y.scale_add(b[0], x * (3.0 * b[1])), x.scale_add(b[3], y * (3.0 * b[2])));
+        (y * y).mul_add(low, x * x * high)
     }
 
     /// Certainly nowhere above `level` (by the control values).
@@ -208,6 +219,18 @@ fn extrema(d: [f64; 3]) -> [Option<f64>; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algebra::shape::{self, Shape};
+
+    /// What runs in lanes is what runs alone, to rounding.
+    #[test]
+    fn lanes_hold_the_same_cubics() {
+        let cubic = Cubic([1.0, -2.0, 0.5, 3.0]);
+        for x in [0.0, 0.1, 0.5, 0.7, 1.0] {
+            assert!((cubic.in_lanes(x) - cubic.at(x)).abs() < 1e-14, "{x}");
+            let (alone, (value, slope)) = (Shape::at(x), shape::in_lanes(x));
+            (0..4).for_each(|k| assert!((alone.value[k] - value[k]).abs().max((alone.slope[k] - slope[k]).abs()) < 1e-14, "{x}"));
+        }
+    }
 
     /// (x - 0.2)(x - 0.5)(x - 0.9): positive on (0.2, 0.5) and (0.9, 1). Roots of simple zeros: rounding only.
     #[test]

@@ -3,6 +3,8 @@
 //! r(x) = N0 r_i + N1 p_i + N2 r_j + N3 p_j with p = dr/ds, s = L x:
 //! N = [1 - 3x² + 2x³, L(x - 2x² + x³), 3x² - 2x³, L(x³ - x²)].
 
+use crate::algebra::lanes::Real;
+
 /// Shape functions and their first and second derivatives by arc length, for unit length: multiply entry k of the
 /// value by L^(k odd), of the slope by L^(k odd) / L, of the curvature by L^(k odd) / L².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +41,16 @@ impl Shape {
             curvature: std::array::from_fn(|k| self.curvature[k] * factor[k] / (length * length)),
         }
     }
+}
+
+/// Values and slopes of the shape functions of unit length, as `Shape::at`, with an x in every lane.
+#[inline(always)]
+pub fn in_lanes<F: Real>(x: F) -> ([F; 4], [F; 4]) {
+    let y = -x + 1.0;
+    let (xx, xy) = (x * x, x * y);
+    let b = xx * (x * -2.0 + 3.0);
+    let turn = xy * 6.0;
+    ([-b + 1.0, xy * y, b, -(xy * x)], [-turn, y * (x * -3.0 + 1.0), turn, x * (x * 3.0 + -2.0)])
 }
 
 /// A quadrature point on [0, 1] and its weight.

@@ -6,7 +6,7 @@
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple};
 use crate::algebra::polynomial::{Cubic, Interval};
-use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, Shape};
+use crate::algebra::shape::{self, GAUSS3, GAUSS4, GaussPoint, Shape};
 use crate::rod::element::{Ends, Motion, Table, Weights};
 use crate::rod::element_tangent::{ElementTangent, PointTangent};
 use crate::rod::mesh::Mesh;
@@ -49,13 +49,7 @@ impl Surface {
         let (u, height) = self.lifted(table, water, at, e)?;
         let length = table.length_of(e);
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-        let mut points = Points::default();
-        for &part in surface::wet_parts(&height, self.diameter[e]).as_slice() {
-            for point in self.rule(&height, part, e) {
-                let span = part.to - part.from;
-                points.push(part.from + span * point.x, span * point.weight * length);
-            }
-        }
+        let points = self.points(&height, e, length);
         let coefficients = table.coefficients(e);
         let wet = WetShare {
             water,
@@ -69,6 +63,18 @@ impl Surface {
             points: &points,
         };
         Some(table.processor.dispatch(wet))
+    }
+
+    /// Quadrature points of the wet parts of an element, given its height above the water and its length.
+    fn points(&self, height: &Cubic, e: usize, length: f64) -> Points {
+        let mut points = Points::default();
+        for &part in surface::wet_parts(height, self.diameter[e]).as_slice() {
+            for point in self.rule(height, part, e) {
+                let span = part.to - part.from;
+                points.push(part.from + span * point.x, span * point.weight * length);
+            }
+        }
+        points
     }
 
     /// Three points under water, as in the fast loop; four where the line is awash, which are exact for its buoyancy.
@@ -102,22 +108,20 @@ impl Surface {
         let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
         let coefficients = table.coefficients(e);
         let mut sum = ElementTangent::zero(());
-        for &part in surface::wet_parts(&height, self.diameter[e]).as_slice() {
-            for gauss in self.rule(&height, part, e) {
-                let x = part.from + (part.to - part.from) * gauss.x;
-                let shape = Shape::at(x);
-                let point = point_motion(at.clock, &u, &v, &a, length, &shape);
-                let (wet, by_height) = self.wet::<W>(&height, x, &point, e);
-                let force = self.force(water, &coefficients, &point, e);
-                let by_rising = force * Vector3::z().transpose() * (-by_height * weights.u);
-                let mut tangent = PointTangent::of_load(by_rising.into());
-                if W::PRESENT {
-                    let water = morison::tangent((), water, &coefficients, &point, weights);
-                    tangent.load = water.by_motion.scale_add(-wet, tangent.load);
-                    tangent.turning = water.by_slope.times(-wet);
-                }
-                sum.add(&shape, gauss.weight * (part.to - part.from) * length, 1.0 / length, &tangent);
+        let points = self.points(&height, e, length);
+        for (&x, &weight) in points.x.iter().zip(&points.weight).take(points.count) {
+            let shape = Shape::at(x);
+            let point = point_motion(at.clock, &u, &v, &a, length, &shape);
+            let (wet, by_height) = self.wet::<W>(&height, x, &point, e);
+            let force = self.force(water, &coefficients, &point, e);
+            let by_rising = force * Vector3::z().transpose() * (-by_height * weights.u);
+            let mut tangent = PointTangent::of_load(by_rising.into());
+            if W::PRESENT {
+                let water = morison::tangent((), water, &coefficients, &point, weights);
+                tangent.load = water.by_motion.scale_add(-wet, tangent.load);
+                tangent.turning = water.by_slope.times(-wet);
             }
+            sum.add(&shape, weight, 1.0 / length, &tangent);
         }
         sum.add_to(matrix, e, length, e + 1);
     }
@@ -171,9 +175,9 @@ impl<W: Water> WithSimd for WetShare<'_, W> {
         let mut first = 0;
         while first < self.points.count {
             let (x, weight) = (Lanes::<V>::load(cpu, &self.points.x, first), Lanes::<V>::load(cpu, &self.points.weight, first));
-            let (value, slope) = surface::shapes(x);
+            let (value, slope) = shape::in_lanes(x);
             let place = u.combine_lanes(&value);
-            let height = if W::WAVES { surface::height_at(self.height, x) } else { place.z };
+            let height = if W::WAVES { self.height.in_lanes(x) } else { place.z };
             let wet = (height * -self.per_diameter + 0.5).max(Lanes::<V>::splat(cpu, 0.0)).min(Lanes::<V>::splat(cpu, 1.0));
             let mut force = Triple::zero(cpu);
             if W::PRESENT {

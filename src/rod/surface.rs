@@ -11,7 +11,6 @@
 //! integrated over the parts below +d/2, cut at -d/2, which are found exactly. (Taking a dry share off the force on the whole
 //! element would be shorter, but its error can have the sign of a negative drag.)
 
-use crate::algebra::lanes::Real;
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::Shape;
 use crate::rod::element::Ends;
@@ -21,25 +20,6 @@ use nalgebra::Vector3;
 
 /// Most parts of an element that differ in how wet they are.
 pub const MOST_PARTS: usize = 12;
-
-/// Hermite shape functions of unit length and their slopes at x.
-#[inline(always)]
-pub fn shapes<F: Real>(x: F) -> ([F; 4], [F; 4]) {
-    let y = -x + 1.0;
-    let (xx, xy) = (x * x, x * y);
-    let b = xx * (x * -2.0 + 3.0);
-    let turn = xy * 6.0;
-    ([-b + 1.0, xy * y, b, -(xy * x)], [-turn, y * (x * -3.0 + 1.0), turn, x * (x * 3.0 + -2.0)])
-}
-
-/// Value of a cubic at x.
-#[inline(always)]
-pub fn height_at<F: Real>(cubic: &Cubic, x: F) -> F {
-    let b = &cubic.0;
-    let y = -x + 1.0;
-    let (low, high) = (y.scale_add(b[0], x * (3.0 * b[1])), x.scale_add(b[3], y * (3.0 * b[2])));
-    (y * y).mul_add(low, x * x * high)
-}
 
 /// Height of an element above the surface of the waves [m].
 pub fn above_waves<W: Water>(u: &Ends<f64>, water: &W, clock: &Clock) -> Cubic {

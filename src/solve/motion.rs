@@ -6,6 +6,7 @@ use crate::scene::motion_file::Table;
 use crate::scene::read::Loaded;
 use crate::scene::types::Motion;
 use nalgebra::Vector3;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Position [m], velocity [m/s] and acceleration [m/s²] of a fairlead.
@@ -85,10 +86,9 @@ impl Path {
             Path::Fixed(_) => true,
             Path::Sinusoidal { offset, .. } => offset.sine.norm() + offset.cosine.norm() == 0.0,
             Path::Table(table) => {
-                let first = table.times.partition_point(|t| *t <= from).saturating_sub(1);
-                let beyond = table.times.partition_point(|t| *t < until).min(table.times.len() - 1);
-                let at_rest = |row| table.velocities[row] == [0.0; 3] && table.positions[row] == table.positions[first];
-                (first..=beyond).all(at_rest)
+                let mut rows = rows_between(table, from, until);
+                let first = *rows.start();
+                rows.all(|row| table.velocities[row] == [0.0; 3] && table.positions[row] == table.positions[first])
             }
             Path::Polynomial { start, coefficients } => {
                 let (span, powers) = ((from - start).abs().max((until - start).abs()), coefficients.iter().enumerate().skip(1));
@@ -104,9 +104,7 @@ impl Path {
             Path::Fixed(position) => position.y == y,
             Path::Sinusoidal { origin, offset } => origin.y == y && offset.sine.y == 0.0 && offset.cosine.y == 0.0,
             Path::Table(table) => {
-                let first = table.times.partition_point(|t| *t <= from).saturating_sub(1);
-                let beyond = table.times.partition_point(|t| *t < until).min(table.times.len() - 1);
-                (first..=beyond).all(|row| table.positions[row][1] == y && table.velocities[row][1] == 0.0)
+                rows_between(table, from, until).all(|row| table.positions[row][1] == y && table.velocities[row][1] == 0.0)
             }
             Path::Polynomial { coefficients, .. } => {
                 coefficients.first().map_or(0.0, |c| c.y) == y && coefficients.iter().skip(1).all(|c| c.y == 0.0)
@@ -120,6 +118,12 @@ impl Kinematics {
     pub fn at_rest(position: Vector3<f64>) -> Kinematics {
         Kinematics { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
     }
+}
+
+/// The rows of a table on which its motion from one time to another depends.
+fn rows_between(table: &Table, from: f64, until: f64) -> RangeInclusive<usize> {
+    let first = table.times.partition_point(|t| *t <= from).saturating_sub(1);
+    first..=table.times.partition_point(|t| *t < until).min(table.times.len() - 1)
 }
 
 /// Cubic Hermite interpolation of a table; before the first and after the last row the fairlead rests there.

@@ -27,15 +27,13 @@ pub fn bound(line: &dyn Line, state: &State) -> Field {
     let nodes = mesh.nodes();
     let sizes: Vec<SVector<f64, COMPONENTS>> =
         (0..nodes).map(|node| SVector::from_fn(|c, _| ROUNDOFF * state.u.component(c)[node].abs())).collect();
+    for block in matrix.diagonal.iter_mut().chain(&mut matrix.upper).chain(&mut matrix.lower) {
+        *block = block.abs();
+    }
+    let mut sums = sizes.clone();
+    matrix.multiply(&sizes, &mut sums);
     let mut bound = Field::new(nodes);
-    for node in 0..nodes {
-        let mut sum = matrix.diagonal[node].abs() * sizes[node];
-        if node > 0 {
-            sum += matrix.lower[node - 1].abs() * sizes[node - 1];
-        }
-        if node + 1 < nodes {
-            sum += matrix.upper[node].abs() * sizes[node + 1];
-        }
+    for (node, sum) in sums.iter().enumerate() {
         (0..COMPONENTS).for_each(|c| bound.component_mut(c)[node] = sum[c]);
     }
     for &(node, component) in line.fixed() {

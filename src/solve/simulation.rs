@@ -193,10 +193,10 @@ impl Simulation {
         });
         let (mixed, report) = mixed.unzip();
         let mut surroundings = Surroundings::of(scene, &mesh);
+        let plane = plane::decision(scene, &scene.lines[index], &surroundings, &supports, path);
+        surroundings.planar = !plane.on;
         let decisions = report.unwrap_or_else(|| {
             let mut decisions = physics::decisions(scene, &mesh, &supports);
-            let plane = plane::decision(scene, &scene.lines[index], &surroundings, &supports, path);
-            surroundings.planar = !plane.on;
             decisions.extend([plane, rest::decision(scene, &supports)]);
             decisions
         });
@@ -252,8 +252,13 @@ impl Simulation {
         for hold in &mut self.supports.holds {
             hold.reference.get_or_insert(self.moment.state.u.position(hold.node));
         }
-        self.line = physics::build(self.line.mesh().clone(), self.surroundings.clone(), self.supports.clone());
+        self.rebuild();
         Ok(())
+    }
+
+    /// Makes the line anew on its mesh, in surroundings or with supports that have changed.
+    fn rebuild(&mut self) {
+        self.line = physics::build(self.line.mesh().clone(), self.surroundings.clone(), self.supports.clone());
     }
 
     /// Where an end is held, or else where the scene has it: the place from which statics starts.
@@ -265,7 +270,7 @@ impl Simulation {
     fn leave_plane(&mut self) {
         if self.line.is_planar() {
             self.surroundings.planar = false;
-            self.line = physics::build(self.line.mesh().clone(), self.surroundings.clone(), self.supports.clone());
+            self.rebuild();
             let effort = self.newton.effort;
             self.newton = Newton::new(self.line.as_ref());
             self.newton.effort = effort;

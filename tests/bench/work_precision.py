@@ -99,10 +99,11 @@ def seldom(case, exact, runs):
             for scheme in SCHEMES:
                 settings = f"automatic mesh, tolerance {tolerance:g}, rows every {step:g} s"
                 point = {"program": "moorline", "scheme": scheme, "elements": None, "tolerance": tolerance, "settings": settings}
-                run = fastest(scene, runs, scheme=scheme, tolerance=tolerance, max_step=step)
+                solver = {"scheme": scheme, "tolerance": tolerance, "max_step": step}
+                run = fastest(scene, runs, **solver)
                 rms, largest = errors(case, judged(case, run.times, run.tension), exact[::every])
                 work = {"used": run.summary["elements"], "steps": run.summary["steps"], "seconds": run.seconds}
-                again = partial(seconds_of, scene, {"scheme": scheme, "tolerance": tolerance, "max_step": step})
+                again = partial(seconds_of, scene, solver)
                 yield {**point, "seldom": True, "rms": rms, "largest": largest, **work, "again": again}
 
 
