@@ -95,6 +95,7 @@ pub mod solve {
     pub mod fleet;
     pub mod generalized_alpha;
     pub mod line_state;
+    pub mod memory;
     pub mod meshing;
     pub mod mixed;
     pub mod motion;

@@ -73,8 +73,6 @@ pub struct Controller {
     scheme: Box<dyn Scheme>,
     guard: Esdirk,
     next: State,
-    /// The step tried last [s].
-    tried: f64,
     /// Work done so far.
     pub tally: Tally,
 }
@@ -86,7 +84,6 @@ impl Controller {
             scheme: scheme::of(name, nodes),
             guard: Esdirk::new(&TR_BDF2, nodes),
             next: State::new(nodes),
-            tried: 0.0,
             tally: Tally::default(),
         }
     }
@@ -111,10 +108,10 @@ impl Controller {
             let h = remaining / count;
             // The way to the next output time rarely divides into the steps of the last one. A factor for nearly the same step would be
             // kept, but converges more slowly than it did; judged by what it did, the iteration would end too soon.
-            if first && (h - self.tried).abs() > 1e-6 * h {
+            if first && (h - moment.tried).abs() > 1e-6 * h {
                 bench.newton.forget();
             }
-            (self.tried, first) = (h, false);
+            (moment.tried, first) = (h, false);
             let guarded = moment.guard > 0;
             let recorded = if let Stages::Record(kept) = &bench.stages { kept.len() } else { 0 };
             let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };
@@ -201,5 +198,5 @@ fn next_step(h: f64, ratio: f64, order: f64) -> f64 {
 pub fn at_rest(line: &dyn Line, time: f64, step: f64) -> Moment {
     let nodes = line.mesh().nodes();
     let state = State { clock: Clock::at_rest(time), holds: Field::new(line.holding_nodes()), ..State::new(nodes) };
-    Moment { state, earlier: Field::new(nodes), last_step: 0.0, step, guard: 0 }
+    Moment { state, earlier: Field::new(nodes), last_step: 0.0, step, tried: 0.0, guard: 0 }
 }

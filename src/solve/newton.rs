@@ -1,16 +1,19 @@
 //! One nonlinear stage: find the increment x with R(u + c_u x, v + c_v x, a + c_a x) = 0 for the unknowns that are free.
 //!
 //! Statics, every scheme and every stage are this problem with other weights. The iteration is a modified Newton method: the factor
-//! of the tangent is kept as long as the iteration contracts well and the weights have not changed much.
+//! of the tangent is kept as long as the iteration contracts well and the weights have not changed much. What it was made from is kept
+//! with it, and makes it again after the solver has gone back to an earlier memory.
 
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
 use crate::rod::element::{Motion, Weights};
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
+use crate::solve::memory::{Memory, Shelf};
 use crate::solve::search;
 use crate::solve::unknowns::Unknowns;
 use nalgebra::{Matrix3, SVector};
 use std::ops::AddAssign;
+use std::sync::Arc;
 
 /// How a stage is to be solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,14 +64,14 @@ pub struct Effort {
     pub factorisations: usize,
 }
 
-/// The solver of stages of one line, with its memory: matrix, factor and the rate at which it contracted last.
+/// The solver of stages of one line.
 pub struct Newton {
     matrix: BlockTridiagonal<COMPONENTS>,
     unknowns: Unknowns,
-    factored: Option<Weights>,
-    rate: f64,
-    /// Whole steps failed where shortened ones did not: near a kink that the line keeps crossing.
-    rough: bool,
+    memory: Memory,
+    /// The factor at hand is the one that the memory speaks of.
+    at_hand: bool,
+    shelf: Shelf,
     increment: Field,
     residual: Field,
     start: State,
@@ -92,9 +95,9 @@ impl Newton {
         Newton {
             matrix: BlockTridiagonal::new(line.mesh().ties()),
             unknowns: Unknowns::new(line),
-            factored: None,
-            rate: 1.0,
-            rough: false,
+            memory: Memory::none(),
+            at_hand: false,
+            shelf: Shelf::default(),
             increment: Field::new(nodes),
             residual: Field::new(nodes),
             start: State::new(nodes),
@@ -104,24 +107,61 @@ impl Newton {
 
     /// Forgets the factor, so that what follows depends on the state alone.
     pub fn forget(&mut self) {
-        self.factored = None;
-        self.rate = 1.0;
-        self.rough = false;
+        self.recall(&Memory::none());
     }
 
-    /// Factors the tangent of a motion.
+    /// What the next stage takes over from those before.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Goes on from a memory of this line. A factor that it speaks of is made again when it is needed, if it is not at hand.
+    pub fn recall(&mut self, memory: &Memory) {
+        let same = match (&self.memory.origin, &memory.origin) {
+            (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+            _ => false,
+        };
+        self.at_hand &= same;
+        let left = std::mem::replace(&mut self.memory, memory.clone());
+        self.shelf.put(left.origin.filter(|_| !same));
+    }
+
+    /// Makes the factor that the memory speaks of, where another is at hand.
+    fn remake(&mut self, line: &dyn Line) -> Result<(), Stall> {
+        if let (Some(origin), false) = (&self.memory.origin, self.at_hand) {
+            line.tangent(&motion(&origin.state), &origin.weights, None, &mut self.matrix);
+            self.effort.factorisations += 1;
+            self.unknowns.factor(line, &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
+            self.at_hand = true;
+        }
+        Ok(())
+    }
+
+    /// Factors the tangent of a motion. One with a given geometric part is not used again by later stages.
     pub fn factor(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: Option<&[f64]>) -> Result<(), Stall> {
-        self.factored = None;
+        self.at_hand = false;
+        let left = self.memory.origin.take();
+        self.shelf.put(left);
         line.tangent(at, weights, geometric, &mut self.matrix);
         self.effort.factorisations += 1;
         self.unknowns.factor(line, &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
-        self.factored = Some(*weights);
+        if geometric.is_none() {
+            self.memory.origin = Some(self.shelf.origin(at, weights));
+            self.at_hand = true;
+        }
         Ok(())
     }
 
     /// Static stiffness of the line against its fairlead, ∂R/∂x condensed on the last node [N/m]; none where the line has no
-    /// stiffness of its own (a heap of slack line).
+    /// stiffness of its own (a heap of slack line). The memory stays as it is.
     pub fn fairlead_stiffness(&mut self, line: &dyn Line, state: &State) -> Option<Matrix3<f64>> {
+        let memory = self.memory.clone();
+        let stiffness = self.condense(line, state);
+        self.recall(&memory);
+        stiffness
+    }
+
+    fn condense(&mut self, line: &dyn Line, state: &State) -> Option<Matrix3<f64>> {
         let weights = Weights { u: 1.0, v: 0.0, a: 0.0 };
         line.tangent(&motion(state), &weights, None, &mut self.matrix);
         let full = self.matrix.clone();
@@ -146,7 +186,6 @@ impl Newton {
             full.multiply(&x, &mut force);
             stiffness.set_column(c, &force[last].fixed_rows::<3>(0));
         }
-        self.forget();
         stiffness.iter().all(|k| k.is_finite()).then_some(stiffness)
     }
 
@@ -157,7 +196,7 @@ impl Newton {
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
     pub fn solve(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
-        if !self.rough {
+        if !self.memory.rough {
             self.start.copy_from(trial);
             let quick = self.iterate(line, weights, trial, criteria);
             if quick.is_ok() {
@@ -167,7 +206,7 @@ impl Newton {
         }
         let begun = self.effort.iterations;
         let damped = self.iterate_damped(line, weights, trial, criteria);
-        self.rough = self.effort.iterations - begun > SMOOTH;
+        self.memory.rough = self.effort.iterations - begun > SMOOTH;
         if damped.is_err() {
             self.forget();
         }
@@ -177,12 +216,12 @@ impl Newton {
     /// Modified Newton: whole steps with an old factor, as long as they contract.
     fn iterate(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
-        if !self.factored.as_ref().is_some_and(fresh) {
-            self.rate = 1.0;
+        if !self.memory.weights().is_some_and(fresh) || self.remake(line).is_err() {
+            self.memory.rate = 1.0;
             self.factor(line, &motion(trial), weights, None)?;
         }
         let mut last = f64::INFINITY;
-        let mut new_factor = self.factored == Some(*weights) && self.rate == 1.0;
+        let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
         for _ in 0..criteria.iterations {
             self.find_increment(line, trial);
             let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
@@ -192,9 +231,10 @@ impl Newton {
             }
             let contraction = size / last;
             if last.is_finite() {
-                self.rate = contraction.max(0.3 * self.rate).min(1.0);
+                self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
             }
-            if size * (self.rate / (1.0 - self.rate).max(0.1)).min(1.0) < criteria.tolerance {
+            let rate = self.memory.rate;
+            if size * (rate / (1.0 - rate).max(0.1)).min(1.0) < criteria.tolerance {
                 return Ok(());
             }
             if contraction > 2.0 && new_factor {
@@ -217,7 +257,7 @@ impl Newton {
         trial: &mut State,
         criteria: &Criteria,
     ) -> Result<(), Stall> {
-        self.rate = 1.0;
+        self.memory.rate = 1.0;
         line.residual(&motion(trial), &mut self.residual);
         for _ in 0..DAMPED {
             self.factor(line, &motion(trial), weights, None)?;

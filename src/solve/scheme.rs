@@ -23,6 +23,8 @@ pub struct Moment {
     pub last_step: f64,
     /// Length aimed at for the next step [s].
     pub step: f64,
+    /// Length of the step tried last [s].
+    pub tried: f64,
     /// Steps still to be taken by the L-stable method.
     pub guard: u32,
 }

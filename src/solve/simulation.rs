@@ -29,6 +29,7 @@ use crate::solve::tangent;
 use nalgebra::Vector3;
 
 mod derivative;
+mod rollback;
 pub use derivative::Linearised;
 
 /// How statics went.
@@ -93,9 +94,11 @@ pub struct Simulation {
     fresh: bool,
     /// The state is known to be at rest.
     resting: bool,
+    /// The scene lets the line stay in a plane, as long as its fairlead does.
+    may_be_planar: bool,
     last: LastStep,
     /// The state before the last `advance`.
-    before: Snapshot,
+    before: Option<Snapshot>,
     /// Room for the forces of the nodes.
     forces: Vec<Vector3<f64>>,
 }
@@ -195,6 +198,8 @@ impl Simulation {
         let mut surroundings = Surroundings::of(scene, &mesh);
         let plane = plane::decision(scene, &scene.lines[index], &surroundings, &supports, path);
         surroundings.planar = !plane.on;
+        let held = Path::Fixed(scene.lines[index].fairlead.into());
+        let may_be_planar = !plane::decision(scene, &scene.lines[index], &surroundings, &supports, Some(&held)).on;
         let decisions = report.unwrap_or_else(|| {
             let mut decisions = physics::decisions(scene, &mesh, &supports);
             decisions.extend([plane, rest::decision(scene, &supports)]);
@@ -234,8 +239,9 @@ impl Simulation {
             works: false,
             fresh: true,
             resting: false,
+            may_be_planar,
             last: LastStep::default(),
-            before: Snapshot::new(nodes),
+            before: None,
             forces: Vec::new(),
         };
         simulation.find_references(scene.lines[index].fairlead.into())?;
@@ -264,17 +270,6 @@ impl Simulation {
     /// Where an end is held, or else where the scene has it: the place from which statics starts.
     fn start_of(&self, node: usize, pinned: Vector3<f64>) -> Vector3<f64> {
         self.supports.holds.iter().find(|hold| hold.node == node).and_then(|hold| hold.reference).unwrap_or(pinned)
-    }
-
-    /// Goes on in space from a plane that the line is about to leave.
-    fn leave_plane(&mut self) {
-        if self.line.is_planar() {
-            self.surroundings.planar = false;
-            self.rebuild();
-            let effort = self.newton.effort;
-            self.newton = Newton::new(self.line.as_ref());
-            self.newton.effort = effort;
-        }
     }
 
     /// From now on the work done on the vessel is summed up over the steps; unasked it stays zero, since it costs an end force in
@@ -359,13 +354,10 @@ impl Simulation {
     /// fairlead stays where it is takes no steps.
     pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
         self.check_path(until, path)?;
-        if self.line.is_planar() && !path.stays_at(self.anchor.y, self.moment.state.clock.now, until) {
+        let begin = self.moment.state.clock.now;
+        self.mark();
+        if self.line.is_planar() && !path.stays_at(self.anchor.y, begin, until) {
             self.leave_plane();
-        }
-        self.before.moment.copy_from(&self.moment);
-        (self.before.work, self.before.fresh, self.before.last) = (self.work, self.fresh, self.last);
-        if let Some(mixed) = &self.mixed {
-            self.before.tensions.clone_from(mixed.tensions());
         }
         if self.rests(until, path) {
             (self.moment.state.clock.now, self.last) = (until, LastStep::default());
@@ -389,22 +381,11 @@ impl Simulation {
                 Ok(())
             }
             Err(failure) => {
-                let stuck = self.stuck(&failure, path, self.before.moment.state.clock.now);
+                let stuck = self.stuck(&failure, path, begin);
                 self.undo();
                 Err(Error::Step(Box::new(stuck)))
             }
         }
-    }
-
-    /// Takes the last `advance` back.
-    pub fn undo(&mut self) {
-        std::mem::swap(&mut self.moment, &mut self.before.moment);
-        (self.work, self.fresh, self.last) = (self.before.work, self.before.fresh, self.before.last);
-        if let Some(mixed) = &mut self.mixed {
-            mixed.restore(&self.before.tensions);
-        }
-        self.newton.forget();
-        self.resting = false;
     }
 
     /// Whether nothing would happen before `until`. Depends on the state and the path alone, so that it is the same after a rollback.
@@ -539,50 +520,6 @@ impl Simulation {
         }
     }
 
-    /// The complete state. The factor of the tangent is not part of it: it is dropped here and in `restore`, so that what follows
-    /// is the same to the bit after both.
-    pub fn snapshot(&mut self) -> Snapshot {
-        let mut snapshot = Snapshot::new(self.line.mesh().nodes());
-        self.save(&mut snapshot);
-        snapshot
-    }
-
-    /// The complete state, as `snapshot`, into one that is there already.
-    pub fn save(&mut self, snapshot: &mut Snapshot) {
-        self.newton.forget();
-        if !self.fits(snapshot) {
-            *snapshot = Snapshot::new(self.line.mesh().nodes());
-        }
-        snapshot.moment.copy_from(&self.moment);
-        snapshot.error = self.demands.error;
-        if let Some(mixed) = &self.mixed {
-            snapshot.tensions.clone_from(mixed.tensions());
-        }
-        (snapshot.work, snapshot.fresh, snapshot.last) = (self.work, self.fresh, self.last);
-    }
-
-    /// Puts back a state of this line; false, and nothing changed, if it belongs to a line with another number of nodes.
-    pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
-        if !self.fits(snapshot) {
-            return false;
-        }
-        if let Some(mixed) = &mut self.mixed {
-            mixed.restore(&snapshot.tensions);
-        }
-        self.newton.forget();
-        self.moment.copy_from(&snapshot.moment);
-        self.demands.error = snapshot.error;
-        (self.work, self.fresh, self.resting, self.last) = (snapshot.work, snapshot.fresh, false, snapshot.last);
-        true
-    }
-
-    /// Whether a state is one of this line: it has as many nodes.
-    pub fn fits(&self, snapshot: &Snapshot) -> bool {
-        let tensions = self.mixed.as_ref().map_or(snapshot.tensions.now.is_empty(), |mixed| mixed.fits(&snapshot.tensions));
-        let holds = snapshot.moment.state.holds.nodes() == self.line.holding_nodes();
-        snapshot.nodes() == self.line.mesh().nodes() && tensions && holds
-    }
-
     /// Rates of the outputs in time, from the motion of the line now and the change of its acceleration over the last step.
     pub fn output_rates(&self) -> Outputs {
         if let Some(mixed) = &self.mixed {
@@ -644,11 +581,11 @@ impl Simulation {
     /// laid slack and pulled tight.
     pub fn start_from(&mut self, given: &LineState) -> bool {
         let mut moment = controller::at_rest(self.line.as_ref(), given.time, self.demands.max_step);
+        let Some(tensions) = line_state::set(self.line.as_ref(), given, &mut moment.state) else { return false };
         let across = |node: &NodeState| [node.slope, node.velocity, node.slope_rate].iter().any(|rate| rate[1] != 0.0);
         if given.nodes.iter().any(|node| node.position[1] != self.anchor.y || across(node)) {
             self.leave_plane();
         }
-        let Some(tensions) = line_state::set(self.line.as_ref(), given, &mut moment.state) else { return false };
         let State { u, v, holds, .. } = &mut moment.state;
         self.line.lay(u, holds);
         self.line.hold(u, v, holds);

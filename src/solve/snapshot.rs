@@ -1,19 +1,27 @@
 //! The complete state of a line in time as plain data, and as bytes.
 
 use crate::cable1994::line::Tensions;
+use crate::rod::element::Weights;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::sea::clock::Clock;
+use crate::solve::memory::{Memory, Origin};
 use crate::solve::scheme::Moment;
 use crate::solve::simulation::LastStep;
+use std::sync::Arc;
 
 /// Everything that the next step depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Snapshot {
     pub(super) moment: Moment,
+    pub(super) memory: Memory,
     /// Of `cable-1994`; empty for every other scheme.
     pub(super) tensions: Tensions,
     pub(super) work: f64,
     pub(super) fresh: bool,
+    /// The line is known to be at rest.
+    pub(super) resting: bool,
+    /// The line is solved in a plane.
+    pub(super) planar: bool,
     pub(super) error: f64,
     pub(super) last: LastStep,
 }
@@ -21,10 +29,10 @@ pub struct Snapshot {
 impl Moment {
     /// Becomes another moment of the same line; allocates nothing, except what friction holds on to where there was none before.
     pub fn copy_from(&mut self, other: &Moment) {
-        let Moment { state, earlier, last_step, step, guard } = other;
+        let Moment { state, earlier, last_step, step, tried, guard } = other;
         self.state.copy_from(state);
         self.earlier.copy_from(earlier);
-        (self.last_step, self.step, self.guard) = (*last_step, *step, *guard);
+        (self.last_step, self.step, self.tried, self.guard) = (*last_step, *step, *tried, *guard);
     }
 }
 
@@ -32,8 +40,9 @@ impl Snapshot {
     /// Room for the state of a line of so many nodes.
     pub fn new(nodes: usize) -> Snapshot {
         let (state, earlier, tensions) = (State::new(nodes), Field::new(nodes), Tensions::default());
-        let moment = Moment { state, earlier, last_step: 0.0, step: 0.0, guard: 0 };
-        Snapshot { moment, tensions, work: 0.0, fresh: true, error: 0.0, last: LastStep::default() }
+        let moment = Moment { state, earlier, last_step: 0.0, step: 0.0, tried: 0.0, guard: 0 };
+        let (memory, last) = (Memory::none(), LastStep::default());
+        Snapshot { moment, memory, tensions, work: 0.0, fresh: true, resting: false, planar: false, error: 0.0, last }
     }
 
     /// Number of nodes of the line it belongs to.
@@ -42,22 +51,33 @@ impl Snapshot {
     }
 
     /// Appends the state as little-endian 8-byte words: nodes, of the line and of what friction holds on to, flags and counts,
-    /// scalars, then u, v, a, the earlier a and what friction holds on to, and of `cable-1994` its tensions now and before.
+    /// scalars, then u, v, a, the earlier a and what friction holds on to, of `cable-1994` its tensions now and before, and from what the
+    /// factor of the tangent was made, if there is one.
     pub fn to_bytes(&self, out: &mut Vec<u8>) {
-        let (m, last) = (&self.moment, &self.last);
+        let (m, last, memory) = (&self.moment, &self.last, &self.memory);
+        let flags = [self.fresh, self.resting, self.planar, memory.rough, memory.origin.is_some()];
         let words = [
             self.nodes() as u64,
             m.state.holds.nodes() as u64,
-            u64::from(self.fresh),
+            flags.iter().rev().fold(0, |bits, flag| 2 * bits + u64::from(*flag)),
             u64::from(m.guard),
             last.substeps as u64,
             last.newton_iterations as u64,
         ];
-        let scalars = [m.state.clock.now, m.state.clock.start, m.last_step, m.step, self.work, self.error, last.error_estimate];
-        let fields = [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds];
-        let tensions = self.tensions.now.iter().chain(&self.tensions.before);
-        let numbers = scalars.iter().chain(fields.into_iter().flat_map(Field::numbers)).chain(tensions).map(|x| x.to_bits());
-        words.into_iter().chain(numbers).for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
+        out.reserve(8 * (words.len() + SCALARS + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())));
+        words.into_iter().for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
+        let clock = m.state.clock;
+        let scalars: [f64; SCALARS] =
+            [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate, self.work, self.error, last.error_estimate];
+        write(&scalars, out);
+        [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds].into_iter().for_each(|field| write_field(field, out));
+        write(&self.tensions.now, out);
+        write(&self.tensions.before, out);
+        if let Some(origin) = &memory.origin {
+            let Origin { weights, state } = origin.as_ref();
+            write(&[weights.u, weights.v, weights.a, state.clock.now, state.clock.start], out);
+            [&state.u, &state.v, &state.a, &state.holds].into_iter().for_each(|field| write_field(field, out));
+        }
     }
 
     /// Reads what `to_bytes` wrote; none if the length does not fit or a number is not finite.
@@ -65,8 +85,11 @@ impl Snapshot {
         let mut words = bytes.chunks_exact(8).map(|chunk| chunk.try_into().map(u64::from_le_bytes).unwrap_or(0));
         let nodes = usize::try_from(words.next()?).ok()?;
         let holding = usize::try_from(words.next()?).ok()?;
-        let numbers = nodes.checked_mul(4)?.checked_add(holding)?.checked_mul(COMPONENTS)?;
-        let expected = numbers.checked_add(13)?.checked_mul(8)?;
+        let bits = words.next().filter(|bits| *bits < 1 << FLAGS)?;
+        let [fresh, resting, planar, rough, kept] = std::array::from_fn(|flag: usize| bits >> flag & 1 == 1);
+        let numbers = |fields: usize| nodes.checked_mul(fields)?.checked_add(holding)?.checked_mul(COMPONENTS);
+        let origin = if kept { numbers(3)?.checked_add(5)? } else { 0 };
+        let expected = numbers(4)?.checked_add(6 + SCALARS)?.checked_add(origin)?.checked_mul(8)?;
         let per_node = match bytes.len().checked_sub(expected)? {
             0 => 0,
             more if more == 4 * 8 * nodes => 2,
@@ -75,35 +98,57 @@ impl Snapshot {
         if nodes < 2 {
             return None;
         }
-        let fresh = match words.next()? {
-            0 => false,
-            1 => true,
-            _ => return None,
-        };
         let guard = u32::try_from(words.next()?).ok()?;
         let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
         let clock = Clock { now: number()?, start: number()? };
-        let (last_step, step, work, error, error_estimate) = (number()?, number()?, number()?, number()?, number()?);
-        let mut field = |nodes| {
-            let mut field = Field::new(nodes);
-            for c in 0..COMPONENTS {
-                for x in field.component_mut(c) {
-                    *x = number()?;
-                }
-            }
-            Some(field)
-        };
-        let (u, v, a, earlier, holds) = (field(nodes)?, field(nodes)?, field(nodes)?, field(nodes)?, field(holding)?);
+        let (last_step, step, tried, rate) = (number()?, number()?, number()?, number()?);
+        let (work, error, error_estimate) = (number()?, number()?, number()?);
+        let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
+        let (earlier, holds) = (field(nodes, &mut number)?, field(holding, &mut number)?);
         let mut list = || (0..per_node * nodes).map(|_| number()).collect::<Option<Vec<f64>>>();
         let tensions = Tensions { now: list()?, before: list()? };
+        let mut origin = || {
+            let weights = Weights { u: number()?, v: number()?, a: number()? };
+            let clock = Clock { now: number()?, start: number()? };
+            let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
+            Some(Arc::new(Origin { weights, state: State { clock, u, v, a, holds: field(holding, &mut number)? } }))
+        };
+        let origin = if kept { Some(origin()?) } else { None };
         Some(Snapshot {
-            moment: Moment { state: State { clock, u, v, a, holds }, earlier, last_step, step, guard },
+            moment: Moment { state: State { clock, u, v, a, holds }, earlier, last_step, step, tried, guard },
+            memory: Memory { origin, rate, rough },
             tensions,
             work,
             fresh,
+            resting,
+            planar,
             error,
             last: LastStep { substeps, newton_iterations, error_estimate },
         })
     }
+}
+
+/// Flags of a state.
+const FLAGS: usize = 5;
+/// Scalars of a state.
+const SCALARS: usize = 9;
+
+fn write(numbers: &[f64], out: &mut Vec<u8>) {
+    out.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+}
+
+fn write_field(field: &Field, out: &mut Vec<u8>) {
+    (0..COMPONENTS).for_each(|c| write(field.component(c), out));
+}
+
+/// A field of the numbers that come next.
+fn field(nodes: usize, number: &mut impl FnMut() -> Option<f64>) -> Option<Field> {
+    let mut field = Field::new(nodes);
+    for c in 0..COMPONENTS {
+        for x in field.component_mut(c) {
+            *x = number()?;
+        }
+    }
+    Some(field)
 }

@@ -2,6 +2,8 @@
 
 use super::{Simulation, begin};
 use crate::error::Error;
+use crate::rod::line::Line;
+use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::State;
 use crate::solve::controller::{self, Failure, Leg};
 use crate::solve::motion::Path;
@@ -18,6 +20,8 @@ pub struct Linearised {
     legs: Vec<Leg>,
     states: Vec<State>,
     stages: Vec<LinearStage>,
+    /// The line in space, where the steps are those of a line in a plane: changes may lead across it.
+    spatial: Option<Box<dyn Line>>,
     repeated: Option<Repeated>,
 }
 
@@ -33,6 +37,7 @@ impl Linearised {
             legs: Vec::new(),
             states: Vec::new(),
             stages: Vec::new(),
+            spatial: None,
             repeated: Some((from.clone(), until, path.clone())),
         }
     }
@@ -41,9 +46,9 @@ impl Linearised {
 impl Simulation {
     /// Takes the steps to a time and linearises them. The simulation stays as it is.
     pub fn linearise(&mut self, until: f64, path: &Path) -> Result<Linearised, Error> {
-        // Changes may lead across the plane.
-        self.leave_plane();
         let now = self.snapshot();
+        let spatial = self.line.is_planar().then(|| self.in_space());
+        self.leave_plane();
         let tally = (self.controller.tally, self.newton.effort);
         let outcome = if self.mixed.is_some() {
             Ok(Linearised::repeated(&now, until, path))
@@ -53,7 +58,12 @@ impl Simulation {
         let outcome = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, now.moment.state.clock.now))));
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
-        outcome
+        outcome.map(|steps| Linearised { spatial, ..steps })
+    }
+
+    fn in_space(&self) -> Box<dyn Line> {
+        let surroundings = Surroundings { planar: false, ..self.surroundings.clone() };
+        physics::build(self.line.mesh().clone(), surroundings, self.supports.clone())
     }
 
     fn linearise_from_here(&mut self, until: f64, path: &Path) -> Result<Linearised, Failure> {
@@ -74,7 +84,7 @@ impl Simulation {
             legs.push(*leg);
         })?;
         let stages = solved.iter().map(|stage| LinearStage::new(line, stage)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
-        Ok(Linearised { time, history, fresh, legs, states, stages, repeated: None })
+        Ok(Linearised { time, history, fresh, legs, states, stages, spatial: None, repeated: None })
     }
 
     /// Change of all outputs at the end of linearised steps per variation of their path: the steps are differentiated, not repeated.
@@ -105,8 +115,8 @@ impl Simulation {
         if let Some(repeated) = &steps.repeated {
             return self.difference_of_repeats(repeated, variation);
         }
-        let Linearised { time, history, fresh, legs, states, stages, .. } = steps;
-        let (line, criteria) = (self.line.as_ref(), self.demands.criteria);
+        let Linearised { time, history, fresh, legs, states, stages, spatial, .. } = steps;
+        let (line, criteria) = (spatial.as_deref().unwrap_or(self.line.as_ref()), self.demands.criteria);
         let failed = |stall| Failure { time: *time, step: 0.0, stall: Some(stall) };
         let stages = Stages::Linear(stages.iter());
         let allowed = self.demands.error;

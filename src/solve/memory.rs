@@ -1,0 +1,100 @@
+//! What the stage solver takes over from one step to the next, small enough to be part of a state: how it did of late, and from what the
+//! factor of its tangent was made. The factor itself is not kept: from the same it is made again to the last bit.
+
+use crate::rod::element::{Motion, Weights};
+use crate::rod::state::State;
+use std::sync::Arc;
+
+/// From what a factor was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Origin {
+    /// The weights of the tangent.
+    pub weights: Weights,
+    /// Where the tangent was taken.
+    pub state: State,
+}
+
+/// All of the past of the stage solver that the next stage depends on. A clone shares the origin, so that it costs next to nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Memory {
+    /// Origin of the factor that the next stage may use; none: it begins with a new one.
+    pub origin: Option<Arc<Origin>>,
+    /// How the iteration contracted last: each increment over the one before.
+    pub rate: f64,
+    /// Whole steps failed where shortened ones did not: near a kink that the line keeps crossing.
+    pub rough: bool,
+}
+
+impl Memory {
+    /// Before the first stage.
+    pub fn none() -> Memory {
+        Memory { origin: None, rate: 1.0, rough: false }
+    }
+
+    /// Weights of the factor that the next stage may use.
+    pub fn weights(&self) -> Option<&Weights> {
+        self.origin.as_ref().map(|origin| &origin.weights)
+    }
+}
+
+/// Origins out of use, to be written over when no state holds on to them any more, so that in the long run nothing is allocated.
+#[derive(Default)]
+pub struct Shelf(Vec<Arc<Origin>>);
+
+/// Origins kept at most: the line holds on to one, its state before the last advance to another, and a master to one or two.
+const ROOM: usize = 4;
+
+impl Shelf {
+    /// Takes in an origin.
+    pub fn put(&mut self, origin: Option<Arc<Origin>>) {
+        if self.0.len() == ROOM {
+            self.0.remove(0);
+        }
+        self.0.extend(origin);
+    }
+
+    /// A motion and weights as an origin.
+    pub fn origin(&mut self, at: &Motion, weights: &Weights) -> Arc<Origin> {
+        let free = self.0.iter_mut().position(|origin| Arc::get_mut(origin).is_some());
+        let mut origin = match free {
+            Some(free) => self.0.swap_remove(free),
+            None => Arc::new(Origin { weights: *weights, state: State::new(at.u.nodes()) }),
+        };
+        let Origin { weights: kept, state } = Arc::make_mut(&mut origin);
+        *kept = *weights;
+        state.clock = at.clock;
+        state.u.copy_from(at.u);
+        state.v.copy_from(at.v);
+        state.a.copy_from(at.a);
+        state.holds.copy_from(at.holds);
+        origin
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solve::newton::motion;
+
+    /// An origin that a state holds on to stays what it is; one that nobody holds on to is used again.
+    #[test]
+    fn an_origin_is_written_over_only_when_nobody_holds_on_to_it() {
+        let (mut shelf, mut state) = (Shelf::default(), State::new(3));
+        let weights = Weights { u: 1.0, v: 2.0, a: 3.0 };
+        let first = shelf.origin(&motion(&state), &weights);
+        let (held, place) = (first.clone(), Arc::as_ptr(&first));
+        shelf.put(Some(first));
+        state.u.fill(5.0);
+        let second = shelf.origin(&motion(&state), &weights);
+        assert!(Arc::as_ptr(&second) != place && held.state == State::new(3) && second.state == state);
+        drop(held);
+        shelf.put(Some(second));
+        let third = shelf.origin(&motion(&state), &weights);
+        assert!(shelf.0.len() == 1 && third.state == state);
+        for _ in 0..10 {
+            let more = shelf.origin(&motion(&state), &weights);
+            shelf.put(Some(more));
+        }
+        assert!(shelf.0.len() <= ROOM);
+    }
+}
