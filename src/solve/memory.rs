@@ -47,10 +47,11 @@ const ROOM: usize = 4;
 impl Shelf {
     /// Takes in an origin.
     pub fn put(&mut self, origin: Option<Arc<Origin>>) {
+        let Some(origin) = origin else { return };
         if self.0.len() == ROOM {
             self.0.remove(0);
         }
-        self.0.extend(origin);
+        self.0.push(origin);
     }
 
     /// A motion and weights as an origin.

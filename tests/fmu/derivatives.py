@@ -74,11 +74,12 @@ def compare(times: tuple, small: float, allowed: float, parameters: dict):
     print(f"{parameters}: derivatives and differences agree to {worst:.1e} of the largest of their group")
 
 
-# The derivative is that of converged steps. At the default tolerance a step stops iterating a little before that, which shows in
-# differences; with a tight tolerance they agree, as long as the small change does not change the choice of steps (at 1e-6 it is the motion
-# to which that tolerance answers).
-compare((0.0, 5.0, 12.0, 55.0, 61.3), small=1e-4, allowed=0.01, parameters={})
-compare((0.0, 5.0), small=1e-7, allowed=1e-3, parameters={"solver.tolerance": 3e-6, "solver.max_step": 0.02})
+# The derivative is that of converged steps. At the default tolerance a step stops iterating a little before that, with the factor that it
+# has at hand, which shows in differences (7e-2 at most); with a tight tolerance they agree (1e-3), as long as the small change does not
+# change the choice of steps (at 1e-6 it is the motion to which that tolerance answers).
+TIMES = (0.0, 5.0, 12.0, 55.0, 61.3)
+compare(TIMES, small=1e-5, allowed=0.2, parameters={})
+compare(TIMES, small=1e-7, allowed=3e-3, parameters={"solver.tolerance": 3e-6, "solver.max_step": 0.02})
 
 line = Line(fmu).start(surge)
 for _ in range(60):
