@@ -25,6 +25,7 @@ pub mod error;
 pub mod algebra {
     pub mod banded;
     pub mod block_tridiagonal;
+    pub mod definite;
     pub mod dimension;
     pub mod lanes;
     pub mod polynomial;
@@ -89,6 +90,7 @@ pub mod cable1994 {
 /// Statics and time.
 pub mod solve {
     pub mod adams_moulton;
+    pub mod bow;
     pub mod controller;
     pub mod departure;
     pub mod esdirk;
@@ -109,9 +111,12 @@ pub mod solve {
     pub mod search;
     pub mod simulation;
     pub mod snapshot;
+    pub mod stability;
+    pub mod stable;
     pub mod start;
     pub mod statics;
     pub mod tangent;
+    pub mod turn;
     pub mod unknowns;
 }
 

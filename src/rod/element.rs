@@ -110,7 +110,7 @@ impl Table {
             put(Property::Waterline, e, surface.map_or(f64::INFINITY, |lowest| lowest - 0.5 * p.diameter));
             put(Property::Ea, e, p.ea);
             put(Property::Damping, e, p.damping);
-            put(Property::Floor, e, p.tension_floor());
+            put(Property::Floor, e, if mesh.limp { 0.0 } else { p.tension_floor() });
             put(Property::Friction, e, SLACK_FRICTION * p.slack_weight() * element.length);
             put(Property::Ei, e, p.ei);
             put(Property::DragNormal, e, p.drag_normal);

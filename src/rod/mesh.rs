@@ -39,6 +39,8 @@ pub struct Mesh {
     pub elasticities: Vec<Elasticity>,
     /// Joints, by element, at which something acts on the line.
     pub points: Vec<usize>,
+    /// No element pushes, whatever its bending stiffness: a line on the way to equilibrium, whose energy is convex.
+    pub limp: bool,
 }
 
 /// A stretch of one material that is meshed by itself.
@@ -134,8 +136,14 @@ impl Mesh {
 
     /// The mesh of parts, counted from the anchor.
     pub fn of_parts(parts: Vec<Part>) -> Mesh {
-        let mut mesh =
-            Mesh { elements: Vec::new(), sections: Vec::new(), length: 0.0, elasticities: Vec::new(), points: Vec::new() };
+        let mut mesh = Mesh {
+            elements: Vec::new(),
+            sections: Vec::new(),
+            length: 0.0,
+            elasticities: Vec::new(),
+            points: Vec::new(),
+            limp: false,
+        };
         for (section, Part { properties, lengths, after_point }) in parts.into_iter().enumerate() {
             let kink = mesh.sections.last().is_some_and(|before| before.joins_with_a_kink(&properties));
             if section > 0 && (after_point || kink) {

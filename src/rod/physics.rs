@@ -70,6 +70,11 @@ impl Surroundings {
         Surroundings { ground: self.ground.clone().map(|ground| Ground { friction: None, ..ground }), ..self.clone() }
     }
 
+    /// The same in space, without friction and flow: what has an energy.
+    pub fn bare(&self) -> Surroundings {
+        Surroundings { current: None, waves: None, planar: false, ..self.without_friction() }
+    }
+
     /// Displacement at which friction breaks away [m], where there is any.
     pub fn breakaway(&self) -> Option<f64> {
         Some(self.ground.as_ref()?.friction.as_ref()?.breakaway())

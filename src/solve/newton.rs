@@ -5,6 +5,7 @@
 //! with it, and makes it again after the solver has gone back to an earlier memory.
 
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
+use crate::algebra::definite::is_positive_definite;
 use crate::rod::element::{Motion, Weights};
 use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
@@ -135,6 +136,15 @@ impl Newton {
             self.at_hand = true;
         }
         Ok(())
+    }
+
+    /// Whether the symmetric part of the tangent of a motion is positive definite, with the tensions `geometric` in its geometric part.
+    /// Drops the factor at hand.
+    pub fn is_definite(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: &[f64]) -> bool {
+        self.forget();
+        line.tangent(at, weights, Some(geometric), &mut self.matrix);
+        line.fixed().iter().for_each(|&(node, component)| self.matrix.fix(node, component));
+        is_positive_definite(&self.matrix)
     }
 
     /// Factors the tangent of a motion. One with a given geometric part is not used again by later stages.

@@ -13,7 +13,7 @@ use crate::rod::element::Weights;
 use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::{Newton, motion};
-use crate::solve::statics::{LONGEST_STEP, largest_slope};
+use crate::solve::turn::{self, LONGEST_STEP};
 
 /// Turn per step that h is chosen for [-].
 const TURN: f64 = 0.1;
@@ -22,31 +22,45 @@ const CHANGE: [f64; 2] = [0.25, 1.3];
 /// The same after a step that could not be made.
 const SHORTER: f64 = 0.1;
 
+/// Shortening of a step whose matrix is not positive definite, and how often before it is taken as it is.
+const SOFTER: f64 = 0.4;
+const SHORTENINGS: usize = 40;
+
 /// A line on its way to rest.
 pub struct Relaxation {
     h: f64,
+    /// Steps are so short that their matrix is positive definite: they lead down from an unstable equilibrium instead of into it.
+    downwards: bool,
     tension: Vec<f64>,
     step: Field,
     from: Field,
 }
 
 impl Relaxation {
-    /// Begins from a state with a step of `h` [s].
-    pub fn new(line: &dyn Line, state: &State, h: f64) -> Relaxation {
+    /// Begins from a state with a step of `h` [s]; `downwards`: to a stable equilibrium alone, where the line has an energy.
+    pub fn new(line: &dyn Line, state: &State, h: f64, downwards: bool) -> Relaxation {
         let nodes = line.mesh().nodes();
         let mut tension = vec![0.0; 3 * line.mesh().elements.len()];
         line.tensions(&state.u, &state.v, &mut tension);
-        Relaxation { h, tension, step: Field::new(nodes), from: Field::new(nodes) }
+        Relaxation { h, downwards, tension, step: Field::new(nodes), from: Field::new(nodes) }
     }
 
     /// Makes a step from a state whose residual is given.
     pub fn step(&mut self, line: &dyn Line, newton: &mut Newton, residual: &Field, state: &mut State) {
-        let weights = Weights { u: 1.0, v: 1.0 / self.h, a: 1.0 / (self.h * self.h) };
+        let weights = |h: f64| Weights { u: 1.0, v: 1.0 / h, a: 1.0 / (h * h) };
+        if self.downwards {
+            let mut shortenings = 0;
+            while shortenings < SHORTENINGS && !newton.is_definite(line, &motion(state), &weights(self.h), &self.tension) {
+                self.h *= SOFTER;
+                shortenings += 1;
+            }
+        }
+        let weights = weights(self.h);
         let factored = newton.factor(line, &motion(state), &weights, Some(&self.tension)).is_ok();
         self.from.copy_from(&state.u);
         self.step.copy_from(residual);
         newton.solve_linear(line, &mut self.step);
-        let turn = largest_slope(&self.step, line.mesh().length);
+        let turn = turn::largest(&self.step, line.mesh().length);
         if !factored || !turn.is_finite() {
             self.h *= SHORTER;
             return;

@@ -23,8 +23,9 @@ use crate::solve::plane;
 use crate::solve::rest;
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
+use crate::solve::stable::{self, Settled, Variant, WHOLE};
 use crate::solve::start::{self, Bounds};
-use crate::solve::statics::{self, Balance};
+use crate::solve::statics;
 use crate::solve::tangent;
 use nalgebra::Vector3;
 
@@ -288,7 +289,11 @@ impl Simulation {
         let (anchor, fairlead) = (self.start_of(0, self.anchor), self.start_of(self.line.last(), fairlead));
         start::guess(self.line.mesh(), &self.bounds, &anchor, &fairlead, &mut self.moment.state.u);
         self.line.place(0, &mut self.moment.state.u, time);
-        let (mut balance, smooth) = self.balance();
+        let (settled, smooth) = self.balance();
+        if self.line.is_planar() && !is_in_plane(&self.moment.state.u, self.anchor.y) {
+            self.leave_plane();
+        }
+        let mut balance = settled.balance;
         if let Some(mixed) = &mut self.mixed {
             balance = mixed.settle(self.line.as_ref(), &mut self.moment.state, balance);
         }
@@ -308,35 +313,48 @@ impl Simulation {
 
     /// Finds the equilibrium without friction, and from there, if there is friction, that of the line as it is laid and the places of the
     /// bed that hold it there; returns the line without friction, too.
-    fn balance(&mut self) -> (Balance, Option<Box<dyn Line>>) {
-        let (mesh, surroundings, supports) = (self.line.mesh(), &self.surroundings, &self.supports);
-        let soften = |limit: f64, surroundings: Surroundings| {
-            let mut soft = mesh.clone();
-            for (number, section) in soft.sections.iter_mut().enumerate().filter(|(_, section)| section.ea > limit) {
-                if let Some(elasticity) = soft.elasticities.get_mut(number) {
-                    *elasticity = elasticity.scaled(limit / section.ea);
+    fn balance(&mut self) -> (Settled, Option<Box<dyn Line>>) {
+        let (mesh, supports) = (self.line.mesh(), &self.supports);
+        let make = |variant: Variant, surroundings: Surroundings| {
+            let mut made = Mesh { limp: variant.limp, ..mesh.clone() };
+            for (number, section) in made.sections.iter_mut().enumerate().filter(|(_, section)| section.ea > variant.limit) {
+                if let Some(elasticity) = made.elasticities.get_mut(number) {
+                    *elasticity = elasticity.scaled(variant.limit / section.ea);
                 }
-                section.ea = limit;
+                section.ea = variant.limit;
             }
-            physics::build(soft, surroundings, supports.clone())
+            physics::build(made, if variant.bare { surroundings.bare() } else { surroundings }, supports.clone())
         };
         let (line, newton, state) = (self.line.as_ref(), &mut self.newton, &mut self.moment.state);
-        if line.holding_nodes() == 0 {
-            let balance = statics::settle(line, &|limit| soften(limit, surroundings.clone()), newton, state);
-            return (balance, None);
-        }
-        let smooth = soften(f64::INFINITY, surroundings.without_friction());
-        let mut balance =
-            statics::settle(smooth.as_ref(), &|limit| soften(limit, surroundings.without_friction()), newton, state);
-        if balance.converged() {
-            let laid = soften(f64::INFINITY, surroundings.laid(mesh));
+        let pushes = mesh.sections.iter().any(|section| section.tension_floor() < 0.0);
+        let rough = line.holding_nodes() > 0;
+        let smooth = rough.then(|| make(WHOLE, self.surroundings.without_friction()));
+        let without = self.surroundings.without_friction();
+        let free = smooth.as_deref().unwrap_or(line);
+        let mut settled = if pushes {
+            // A line may buckle out of its plane.
+            let spatial = Surroundings { planar: false, ..without };
+            let line = make(WHOLE, spatial.clone());
+            let effort = newton.effort;
+            let mut in_space = Newton::new(line.as_ref());
+            let settled = stable::settle(line.as_ref(), &|variant| make(variant, spatial.clone()), &mut in_space, state);
+            newton.effort = effort;
+            settled
+        } else {
+            let soften = |limit| make(Variant { limit, ..WHOLE }, without.clone());
+            Settled { balance: statics::settle(free, &soften, newton, state), others: false, unstable: false }
+        };
+        if rough && settled.balance.converged() {
+            let around = self.surroundings.laid(mesh);
+            let laid = make(WHOLE, around.clone());
             laid.lay(&state.u, &mut state.holds);
-            let before = balance.iterations;
-            balance = statics::settle(laid.as_ref(), &|limit| soften(limit, surroundings.laid(mesh)), newton, state);
-            balance.iterations += before;
+            let before = settled.balance.iterations;
+            settled.balance =
+                statics::settle(laid.as_ref(), &|limit| make(Variant { limit, ..WHOLE }, around.clone()), newton, state);
+            settled.balance.iterations += before;
             laid.hold(&state.u, &state.v, &mut state.holds);
         }
-        (balance, Some(smooth))
+        (settled, smooth)
     }
 
     /// What a new beginning resets, and the error of a step that is allowed from here; `smooth` is the line without friction, if it
@@ -652,6 +670,11 @@ fn begin(bench: &mut Bench, moment: &mut Moment) -> Result<(), Stall> {
 
 fn is_finite(k: &Kinematics) -> bool {
     [k.position, k.velocity, k.acceleration].iter().all(|v| v.iter().all(|x| x.is_finite()))
+}
+
+/// Whether a line lies in the plane of a y.
+fn is_in_plane(u: &Field, y: f64) -> bool {
+    u.component(1).iter().all(|place| *place == y) && u.component(4).iter().all(|slope| *slope == 0.0)
 }
 
 /// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.

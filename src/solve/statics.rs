@@ -8,9 +8,10 @@
 
 use crate::rod::element::Weights;
 use crate::rod::line::Line;
-use crate::rod::state::{COMPONENTS, Field, State};
+use crate::rod::state::{Field, State};
 use crate::solve::newton::{Newton, motion};
 use crate::solve::relaxation::Relaxation;
+use crate::solve::turn::{self, LONGEST_STEP};
 use crate::solve::{rounding, search, start};
 
 /// How an attempt ended.
@@ -43,8 +44,6 @@ impl Balance {
     }
 }
 
-/// Largest change of a slope in one iteration [-].
-pub(in crate::solve) const LONGEST_STEP: f64 = 0.4;
 /// Unbalanced force that is aimed at, relative to the line's weight or end tension.
 const AIMED: f64 = 1.0e-7;
 /// Unbalanced force that counts as equilibrium where no more is to be had.
@@ -53,13 +52,25 @@ const PROMISED: f64 = 1.0e-6;
 /// line whose end is awash or in air.
 const LITTLE: f64 = 0.1;
 
+/// Newton's method from a guess: enough for most lines. Leads into unstable equilibria as well.
+pub fn approach(line: &dyn Line, newton: &mut Newton, state: &mut State) -> Balance {
+    Walk::new(line).go(line, newton, state, &Attempt { iterations: 25, way: Way::Mixed, allowed: AIMED })
+}
+
+/// Goes down from a state that is out of balance, or out of an unstable equilibrium, in so many iterations.
+pub fn descend(line: &dyn Line, newton: &mut Newton, state: &mut State, iterations: usize, promised: bool) -> Balance {
+    let attempt = Attempt { iterations, way: Way::Descend, allowed: if promised { AIMED } else { 1e-4 } };
+    let balance = Walk::new(line).go(line, newton, state, &attempt);
+    if promised { balance.judged().within(rounding(line, state)) } else { balance }
+}
+
 /// Brings `state` (ends in place) to equilibrium; v and a are zero on return. `soften` makes the same line with its EA limited [N].
 pub fn settle(line: &dyn Line, soften: &dyn Fn(f64) -> Box<dyn Line>, newton: &mut Newton, state: &mut State) -> Balance {
     state.v.fill(0.0);
     state.a.fill(0.0);
     let mut start = state.u.clone();
+    let direct = approach(line, newton, state);
     let mut walk = Walk::new(line);
-    let direct = walk.go(line, newton, state, &Attempt { iterations: 25, way: Way::Mixed, allowed: AIMED });
     let mut iterations = direct.iterations;
     if direct.converged() {
         return direct;
@@ -135,6 +146,8 @@ enum Way {
     },
     /// Motion without swing.
     Relax,
+    /// The same, never into an unstable equilibrium.
+    Descend,
 }
 
 /// One walk to equilibrium.
@@ -189,7 +202,7 @@ impl Walk {
         match attempt.way {
             Way::Mixed => self.run(line, newton, state, attempt, 0.0),
             Way::Search { inertia } => self.run(line, newton, state, attempt, inertia),
-            Way::Relax => self.relax(line, newton, state, attempt),
+            Way::Relax | Way::Descend => self.relax(line, newton, state, attempt),
         }
     }
 
@@ -197,7 +210,7 @@ impl Walk {
     fn relax(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
         let mut balance = self.balance(line, state, attempt.allowed);
         let mut best = (balance, state.u.clone());
-        let mut relaxation = Relaxation::new(line, state, FIRST_STEP / unit_of_inertia(line).sqrt());
+        let mut relaxation = Relaxation::new(line, state, FIRST_STEP / unit_of_inertia(line).sqrt(), attempt.way == Way::Descend);
         let mut iterations = 0;
         while !balance.converged() && iterations < attempt.iterations {
             iterations += 1;
@@ -233,7 +246,7 @@ impl Walk {
             let factored = newton.factor(line, &motion(state), &weights, geometric).is_ok();
             self.step.copy_from(&self.residual);
             newton.solve_linear(line, &mut self.step);
-            let turn = largest_slope(&self.step, mesh.length);
+            let turn = turn::largest(&self.step, mesh.length);
             let mut length = 0.0;
             if factored && turn.is_finite() {
                 let scale = -(LONGEST_STEP / turn).min(1.0);
@@ -296,7 +309,7 @@ fn rounding(line: &dyn Line, state: &State) -> f64 {
 }
 
 /// Unit of μ: weight / (mass · length) [1/s²].
-fn unit_of_inertia(line: &dyn Line) -> f64 {
+pub fn unit_of_inertia(line: &dyn Line) -> f64 {
     let mesh = line.mesh();
     let mass: f64 = mesh.elements.iter().map(|e| e.length * mesh.sections[e.section].mass).sum();
     mesh.total_weight().max(mass) / (mass * mesh.length)
@@ -314,21 +327,6 @@ fn largest_force(line: &dyn Line, residual: &Field) -> (f64, usize) {
             largest = (size, node);
             if size.is_nan() {
                 break;
-            }
-        }
-    }
-    largest
-}
-
-/// Largest turn of a step [-], moves counted by half the length of the line.
-pub(in crate::solve) fn largest_slope(step: &Field, length: f64) -> f64 {
-    let mut largest: f64 = 0.0;
-    for c in 0..COMPONENTS {
-        let scale = if c < 3 { 2.0 / length } else { 1.0 };
-        for x in step.component(c) {
-            let size = (x * scale).abs();
-            if !(size <= largest) {
-                largest = size;
             }
         }
     }
