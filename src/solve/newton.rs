@@ -12,7 +12,7 @@ use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::memory::{Memory, Shelf};
 use crate::solve::search;
 use crate::solve::unknowns::Unknowns;
-use nalgebra::{Matrix3, SVector};
+use nalgebra::{Matrix3, SVector, Vector3};
 use std::ops::AddAssign;
 use std::sync::Arc;
 
@@ -138,12 +138,22 @@ impl Newton {
         Ok(())
     }
 
-    /// Whether the symmetric part of the tangent of a motion is positive definite, with the tensions `geometric` in its geometric part.
-    /// Drops the factor at hand.
-    pub fn is_definite(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: &[f64]) -> bool {
+    /// Whether the symmetric part of the tangent of a motion is positive definite, with given tensions in its geometric part, or its own.
+    /// `across`: a unit vector along which nothing pulls at the line; motion along it does not count. Drops the factor at hand.
+    pub fn is_definite(
+        &mut self,
+        line: &dyn Line,
+        at: &Motion,
+        weights: &Weights,
+        geometric: Option<&[f64]>,
+        across: Option<Vector3<f64>>,
+    ) -> bool {
         self.forget();
-        line.tangent(at, weights, Some(geometric), &mut self.matrix);
+        line.tangent(at, weights, geometric, &mut self.matrix);
         line.fixed().iter().for_each(|&(node, component)| self.matrix.fix(node, component));
+        if let Some(across) = across {
+            without(&mut self.matrix, &across);
+        }
         is_positive_definite(&self.matrix)
     }
 
@@ -327,6 +337,27 @@ impl Newton {
             }
         }
         largest
+    }
+}
+
+/// Takes motion along a unit vector out of a matrix: what remains is as if it were locked there.
+fn without(matrix: &mut BlockTridiagonal<COMPONENTS>, across: &Vector3<f64>) {
+    let mut along = SVector::<f64, COMPONENTS>::zeros();
+    let blocks = matrix.diagonal.iter_mut().map(|block| (block, true));
+    let others = matrix.upper.iter_mut().chain(matrix.lower.iter_mut()).map(|block| (block, false));
+    for (block, own) in blocks.chain(others) {
+        for half in [0, 3] {
+            along.fill(0.0);
+            along.fixed_rows_mut::<3>(half).copy_from(across);
+            let size = block.amax().max(f64::MIN_POSITIVE);
+            let columns = *block * along;
+            *block -= columns * along.transpose();
+            let rows = block.transpose() * along;
+            *block -= along * rows.transpose();
+            if own {
+                *block += along * along.transpose() * size;
+            }
+        }
     }
 }
 

@@ -49,8 +49,11 @@ impl Relaxation {
     pub fn step(&mut self, line: &dyn Line, newton: &mut Newton, residual: &Field, state: &mut State) {
         let weights = |h: f64| Weights { u: 1.0, v: 1.0 / h, a: 1.0 / (h * h) };
         if self.downwards {
+            let across = turn::across(&state.u, line.mesh().length);
             let mut shortenings = 0;
-            while shortenings < SHORTENINGS && !newton.is_definite(line, &motion(state), &weights(self.h), &self.tension) {
+            while shortenings < SHORTENINGS
+                && !newton.is_definite(line, &motion(state), &weights(self.h), Some(&self.tension), across)
+            {
                 self.h *= SOFTER;
                 shortenings += 1;
             }

@@ -59,8 +59,18 @@ pub fn approach(line: &dyn Line, newton: &mut Newton, state: &mut State) -> Bala
 
 /// Goes down from a state that is out of balance, or out of an unstable equilibrium, in so many iterations.
 pub fn descend(line: &dyn Line, newton: &mut Newton, state: &mut State, iterations: usize, promised: bool) -> Balance {
-    let attempt = Attempt { iterations, way: Way::Descend, allowed: if promised { AIMED } else { 1e-4 } };
-    let balance = Walk::new(line).go(line, newton, state, &attempt);
+    let (mut walk, allowed) = (Walk::new(line), if promised { AIMED } else { 1e-4 });
+    let mut balance = walk.balance(line, state, allowed);
+    let mut done = 0;
+    let searching = Way::Search { inertia: 1.0, downwards: true };
+    for (way, share) in [(Way::Descend, 0.25), (searching, 0.25), (Way::Descend, 0.25), (searching, 0.25)] {
+        if balance.converged() {
+            break;
+        }
+        balance = walk.go(line, newton, state, &Attempt { iterations: (share * iterations as f64) as usize, way, allowed });
+        done += balance.iterations;
+    }
+    let balance = Balance { iterations: done, ..balance };
     if promised { balance.judged().within(rounding(line, state)) } else { balance }
 }
 
@@ -126,11 +136,27 @@ struct Fallback {
 
 /// Relaxation of softened lines goes on to forces as small as the drag of a slow current, of which the shape of a slack line depends.
 const FALLBACKS: [Fallback; 4] = [
-    Fallback { anew: true, softest: 10.0, ratio: 10.0, iterations: [60, 400], allowed: 1e-3, way: Way::Search { inertia: 1.0 } },
+    Fallback {
+        anew: true,
+        softest: 10.0,
+        ratio: 10.0,
+        iterations: [60, 400],
+        allowed: 1e-3,
+        way: Way::Search { inertia: 1.0, downwards: false },
+    },
     Fallback { anew: false, softest: f64::INFINITY, ratio: 1.0, iterations: [0, 500], allowed: AIMED, way: Way::Relax },
     Fallback { anew: true, softest: 10.0, ratio: 4.0, iterations: [200, 500], allowed: 1e-6, way: Way::Relax },
-    Fallback { anew: true, softest: 3.0, ratio: 3.0, iterations: [80, 600], allowed: 1e-3, way: Way::Search { inertia: 30.0 } },
+    Fallback {
+        anew: true,
+        softest: 3.0,
+        ratio: 3.0,
+        iterations: [80, 600],
+        allowed: 1e-3,
+        way: Way::Search { inertia: 30.0, downwards: false },
+    },
 ];
+/// Largest μ for the sake of a positive definite matrix, as a multiple of weight / (mass · length).
+const STIFFEST: f64 = 1.0e15;
 /// First step of a relaxation, as a share of √(mass · length / weight).
 const FIRST_STEP: f64 = 0.1;
 
@@ -143,6 +169,8 @@ enum Way {
     Search {
         /// First μ, as a multiple of weight / (mass · length).
         inertia: f64,
+        /// μ is so large that the matrix is positive definite: every step goes down.
+        downwards: bool,
     },
     /// Motion without swing.
     Relax,
@@ -201,7 +229,7 @@ impl Walk {
     fn go(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt) -> Balance {
         match attempt.way {
             Way::Mixed => self.run(line, newton, state, attempt, 0.0),
-            Way::Search { inertia } => self.run(line, newton, state, attempt, inertia),
+            Way::Search { inertia, .. } => self.run(line, newton, state, attempt, inertia),
             Way::Relax | Way::Descend => self.relax(line, newton, state, attempt),
         }
     }
@@ -233,6 +261,7 @@ impl Walk {
     fn run(&mut self, line: &dyn Line, newton: &mut Newton, state: &mut State, attempt: &Attempt, inertia: f64) -> Balance {
         let mesh = line.mesh();
         let mixed = attempt.way == Way::Mixed;
+        let downwards = matches!(attempt.way, Way::Search { downwards: true, .. });
         let unit = unit_of_inertia(line);
         let mut mu = inertia * unit;
         line.tensions(&state.u, &state.v, &mut self.tension);
@@ -241,7 +270,12 @@ impl Walk {
             if balance.converged() {
                 break;
             }
-            let weights = Weights { u: 1.0, v: 0.0, a: mu };
+            let across = turn::across(&state.u, mesh.length);
+            let weights = |mu: f64| Weights { u: 1.0, v: 0.0, a: mu };
+            while downwards && mu < STIFFEST * unit && !newton.is_definite(line, &motion(state), &weights(mu), None, across) {
+                mu = (4.0 * mu).max(1e-3 * unit);
+            }
+            let weights = weights(mu);
             let geometric = mixed.then_some(&self.tension[..]);
             let factored = newton.factor(line, &motion(state), &weights, geometric).is_ok();
             self.step.copy_from(&self.residual);
