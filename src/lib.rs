@@ -107,6 +107,7 @@ pub mod solve {
     pub mod relaxation;
     pub mod rest;
     pub mod rounding;
+    pub mod scale;
     pub mod scheme;
     pub mod search;
     pub mod simulation;

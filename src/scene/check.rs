@@ -510,6 +510,9 @@ fn run(scene: &Scene, file: &str) -> Result<(), Error> {
 
 fn solver(scene: &Scene, file: &str) -> Result<(), Error> {
     let solver = &scene.solver;
+    if let Some(scale) = solver.tension_scale.filter(|scale| !(*scale >= 0.0 && scale.is_finite())) {
+        return refuse(file, "solver.tension_scale", number(scale), "it must be zero or positive");
+    }
     if !(1.0e-8..=0.1).contains(&solver.tolerance) {
         return refuse(file, "solver.tolerance", number(solver.tolerance), "it must lie between 1e-8 and 0.1");
     }

@@ -517,6 +517,11 @@ pub struct Solver {
     #[serde(default = "default_tolerance")]
     #[schemars(range(min = 1e-8, max = 0.1))]
     pub tolerance: f64,
+    /// Tension [N] below which errors count as if it were the tension, ≥ 0: for lines that go slack. Default: a tenth of the line's weight in
+    /// water or of the largest static tension on the way of its fairlead, the larger.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub tension_scale: Option<f64>,
     /// Longest time step [s], > 0. Default 0.5.
     #[serde(default = "default_max_step")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -606,6 +611,7 @@ impl Default for Solver {
             fixed_step: None,
             stretch: None,
             hydrostatic_strain: false,
+            tension_scale: None,
         }
     }
 }

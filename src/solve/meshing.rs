@@ -180,6 +180,18 @@ fn fairlead_speed(motion: &Motion) -> f64 {
 
 /// Places of the fairlead, at rest, that bound what its motion does to the line.
 pub fn fairlead_places(scene: &Scene, line: &Line) -> Vec<Vector3<f64>> {
+    places(scene, line, DYNAMIC)
+}
+
+/// Largest tension at the fairlead of the catenaries of a line's mean weight on the way of its fairlead [N].
+pub fn largest_tension(scene: &Scene, line: &Line) -> f64 {
+    let (whole, anchor) = (whole(scene, line), Vector3::from(line.anchor));
+    let tension = |place: &Vector3<f64>| Frame::new(&whole, &bounds(scene), &anchor, place).tension(whole.length).0;
+    places(scene, line, 1.0).iter().map(tension).fold(0.0, f64::max)
+}
+
+/// The fairlead of the scene, and places on its way, `farther` times as far out.
+fn places(scene: &Scene, line: &Line, farther: f64) -> Vec<Vector3<f64>> {
     let fairlead = Vector3::from(line.fairlead);
     let mut places = vec![fairlead];
     if !line.is_pinned(0.0) {
@@ -189,7 +201,7 @@ pub fn fairlead_places(scene: &Scene, line: &Line) -> Vec<Vector3<f64>> {
         let (sine, cosine) = (Vector3::from(*sine), Vector3::from(*cosine));
         for k in 0..8 {
             let (s, c) = (k as f64 * std::f64::consts::FRAC_PI_4).sin_cos();
-            places.push(fairlead + (sine * s + cosine * c) * DYNAMIC);
+            places.push(fairlead + (sine * s + cosine * c) * farther);
         }
     }
     places

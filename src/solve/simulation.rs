@@ -21,6 +21,7 @@ use crate::solve::outputs;
 pub use crate::solve::outputs::{NodeOutput, Outputs};
 use crate::solve::plane;
 use crate::solve::rest;
+use crate::solve::scale::Scale;
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
 use crate::solve::stable::{self, Settled, Variant, WHOLE};
@@ -88,6 +89,7 @@ pub struct Simulation {
     newton: Newton,
     controller: Controller,
     tolerance: f64,
+    scale: Scale,
     demands: Demands,
     moment: Moment,
     work: f64,
@@ -163,7 +165,7 @@ impl Simulation {
         for _ in 0..3 {
             let mut halved = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
             match (tension(&mut simulation), tension(&mut halved)) {
-                (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * fine => {
+                (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * simulation.scale.tension(fine) => {
                     finer *= 1.5;
                     simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
                 }
@@ -215,6 +217,9 @@ impl Simulation {
         // Where friction holds the line, what the iteration leaves must be small against the way to breaking away.
         let holding = surroundings.breakaway().map_or(f64::INFINITY, |breakaway| BREAKAWAY_SHARE * breakaway / length);
         let tolerance = (share * solver.tolerance).clamp(1e-11, 1e-4).min(holding);
+        // A stiff line that carries little: what the iteration leaves is a strain, and a strain is a force.
+        let scale = Scale::of(scene, &scene.lines[index], line.as_ref());
+        let tolerance = tolerance * scale.strictness(line.as_ref());
         let criteria = Criteria { tolerance, length, iterations: 12 };
         let mut simulation = Simulation {
             name: scene.lines[index].name.clone(),
@@ -226,6 +231,7 @@ impl Simulation {
             newton: Newton::new(line.as_ref()),
             controller: Controller::new(solver.scheme, nodes),
             tolerance: solver.tolerance,
+            scale,
             demands: Demands {
                 error: 0.0,
                 finest_step: (FINEST_SHARE * solver.max_step).max(CROSSING_SHARE * crossing).min(solver.max_step),
@@ -361,8 +367,8 @@ impl Simulation {
     /// has any.
     fn begin_anew(&mut self, smooth: Option<&dyn Line>) {
         let line = smooth.unwrap_or(self.line.as_ref());
-        let tension_length = tension_length(line, &mut self.newton, &self.moment.state);
-        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.8).min(1.0) * self.tolerance * tension_length;
+        let length = self.scale.length(line, &mut self.newton, &self.moment.state);
+        self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.8).min(1.0) * self.tolerance * length;
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.work, self.fresh, self.resting, self.last) = (0.0, true, false, LastStep::default());
@@ -675,12 +681,4 @@ fn is_finite(k: &Kinematics) -> bool {
 /// Whether a line lies in the plane of a y.
 fn is_in_plane(u: &Field, y: f64) -> bool {
     u.component(1).iter().all(|place| *place == y) && u.component(4).iter().all(|slope| *slope == 0.0)
-}
-
-/// Displacement of the fairlead that would double the end tension [m]: what makes an error of position an error of tension.
-fn tension_length(line: &dyn Line, newton: &mut Newton, state: &State) -> f64 {
-    let length = line.mesh().length;
-    let tension = line.end_force(&motion(state)).norm();
-    let stiffness = newton.fairlead_stiffness(line, state).map_or(0.0, |k| k.norm());
-    if stiffness > 0.0 { (tension / stiffness).clamp(1e-5 * length, 0.02 * length) } else { 0.02 * length }
 }
