@@ -292,9 +292,11 @@ pub enum Limit {
 /// No static equilibrium was found.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "line \"{line}\": no static equilibrium after {iterations} iterations: near s = {s:.1} m ({zone}) a force of {residual:.3e} N is not \
-     balanced (allowed: {allowed:.1e} N). Check length, weight and ends of the line; a coarser or finer mesh (`elements`), a little \
-     bending stiffness (`ei`) or a stiffness `ea` closer to the real one may help."
+    "line \"{line}\": no {stable}static equilibrium after {iterations} iterations: near s = {s:.1} m ({zone}) a force of {residual:.3e} N is \
+     not balanced (allowed: {allowed:.1e} N){buckles}. Check length, weight and ends of the line; a coarser or finer mesh (`elements`), a \
+     little bending stiffness (`ei`) or a stiffness `ea` closer to the real one may help.",
+    stable = if *unstable { "stable " } else { "" },
+    buckles = if *unstable { ", but the line would buckle from there" } else { "" }
 )]
 pub struct Unbalanced {
     /// Name of the line.
@@ -305,6 +307,8 @@ pub struct Unbalanced {
     pub residual: f64,
     /// Unbalanced force that counts as equilibrium [N].
     pub allowed: f64,
+    /// In balance, but not stable: the least disturbance would make it buckle.
+    pub unstable: bool,
     /// Arc length of the largest unbalanced force [m from the fairlead].
     pub s: f64,
     /// What is there.

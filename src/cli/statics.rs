@@ -26,6 +26,9 @@ struct Equilibrium {
 struct LineEquilibrium {
     name: String,
     converged: bool,
+    /// Other equilibria are as good, by symmetry.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    others: bool,
     tension: f64,
     force: Triple,
     anchor_tension: f64,
@@ -67,11 +70,11 @@ fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
         let mut simulation = Simulation::new(&loaded.scene, index)?;
         let start = loaded.scene.run.start;
         let fairlead = Path::of_scene(loaded, index).at(start).position;
-        let (converged, iterations, residual) = match simulation.settle(fairlead, start) {
-            Ok(report) => (report.converged, report.iterations, report.residual),
+        let (converged, others, iterations, residual) = match simulation.settle(fairlead, start) {
+            Ok(report) => (report.converged, report.others, report.iterations, report.residual),
             Err(error) => {
                 let Error::Statics(state) = &error else { return Err(error) };
-                let reached = (false, state.iterations, state.residual);
+                let reached = (false, false, state.iterations, state.residual);
                 failure.get_or_insert(error);
                 reached
             }
@@ -79,7 +82,8 @@ fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
         equilibrium.converged &= converged;
         equilibrium.iterations += iterations;
         equilibrium.residual = equilibrium.residual.max(residual);
-        equilibrium.lines.push(line_equilibrium(&line.name, converged, &simulation.outputs(), &simulation.nodes()));
+        let found = line_equilibrium(&line.name, converged, &simulation.outputs(), &simulation.nodes());
+        equilibrium.lines.push(LineEquilibrium { others, ..found });
     }
     Ok((equilibrium, failure))
 }
@@ -95,6 +99,7 @@ fn line_equilibrium(name: &str, converged: bool, outputs: &Outputs, nodes: &[Nod
     LineEquilibrium {
         name: name.to_string(),
         converged,
+        others: false,
         tension: outputs.tension,
         force: outputs.force.into(),
         anchor_tension: outputs.anchor_tension,
@@ -137,6 +142,9 @@ fn line_table(text: &mut String, line: &LineEquilibrium, touchdown: Option<f64>)
         Some(s) => writeln!(text, "  touchdown at s = {s:.3} m; {:.3} m on the bed", line.grounded_length),
         None => writeln!(text, "  {:.3} m on the bed", line.grounded_length),
     };
+    if line.others {
+        let _ = writeln!(text, "  other equilibria are as good: the line may lie to another side");
+    }
     let force_heading = format!("tension [{}]", unit.symbol);
     let wall_heading = if line.nodes.iter().any(|node| node.wall_tension.is_some()) { "of the wall" } else { "" };
     let _ = writeln!(

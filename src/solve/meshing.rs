@@ -16,6 +16,8 @@ use std::f64::consts::TAU;
 
 /// Inertia and drag move the touchdown farther than the fairlead's motion would at rest: the motion counts this many times.
 const DYNAMIC: f64 = 1.6;
+/// Shortest element as a share of the length of a bight.
+const BEND: f64 = 0.3;
 /// Samples per element of a shape on which a grading is based.
 const PER_ELEMENT: usize = 4;
 /// Samples along the line on which the grading is based.
@@ -141,6 +143,9 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
     let slackens = places.iter().any(|fairlead| (fairlead - anchor).norm() < whole.length);
     let drop = places.iter().map(|fairlead| (fairlead.z - line.anchor[2]).abs()).fold(0.0, f64::max);
     let sea = Waves::of(&scene.environment).map(|waves| waves.mean());
+    // A slack line with bending stiffness hangs in a bight of about this length, (EI/w)^⅓.
+    let (ei, weight) = (mean(&|p| p.ei), mean(&|p| p.weight.abs().max(0.01 * p.weight_in_air)));
+    let bend = if ei > 0.0 { (BEND * (ei / weight).cbrt()).max(whole.length / 4000.0) } else { f64::INFINITY };
     Rules {
         length: whole.length,
         refinement: finer * (1.0e-3 / scene.solver.tolerance).powf(0.39),
@@ -155,7 +160,7 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
         },
         wave_number: sea.map_or(0.0, |(_, k)| k),
         snaps: slackens && fairlead_speed(&scene.motion) > falls,
-        shortest: (whole.length / 400.0).max(0.02 * drop).min(whole.length / 20.0) / finer,
+        shortest: (whole.length / 400.0).max(0.02 * drop).min(whole.length / 20.0).min(bend) / finer,
     }
 }
 

@@ -20,7 +20,9 @@ const SHARE: f64 = 0.1;
 /// T_0/EA above which the tolerance of slopes is strict enough, inverted: it is on the built-in case, whose T_0/EA is 4e-4.
 const STRICTNESS: f64 = 4.0e3;
 /// Bounds of ℓ as shares of the line's length.
-const LENGTHS: [f64; 2] = [1.0e-5, 0.1];
+const LENGTHS: [f64; 2] = [1.0e-5, 0.02];
+/// The upper bound of a slack line is larger by T_s/T, up to this factor.
+const MOST_SLACK: f64 = 5.0;
 
 /// The scale of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +55,9 @@ impl Scale {
     /// ℓ in a static state [m].
     pub fn length(&self, line: &dyn Line, newton: &mut Newton, state: &State) -> f64 {
         let [least, most] = LENGTHS.map(|share| share * line.mesh().length);
-        let tension = self.tension(line.end_force(&motion(state)).norm());
+        let now = line.end_force(&motion(state)).norm();
+        let tension = self.tension(now);
+        let most = most * if tension > now { (tension / now).min(MOST_SLACK) } else { 1.0 };
         let stiffness = newton.fairlead_stiffness(line, state).map_or(0.0, |k| k.norm());
         if stiffness > 0.0 { (tension / stiffness).clamp(least, most) } else { most }
     }

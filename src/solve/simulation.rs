@@ -24,9 +24,10 @@ use crate::solve::rest;
 use crate::solve::scale::Scale;
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
+use crate::solve::stability;
 use crate::solve::stable::{self, Settled, Variant, WHOLE};
 use crate::solve::start::{self, Bounds};
-use crate::solve::statics;
+use crate::solve::statics::{self, Balance};
 use crate::solve::tangent;
 use nalgebra::Vector3;
 
@@ -43,6 +44,8 @@ pub struct StaticsReport {
     pub residual: f64,
     /// Whether the residual is small enough to call it equilibrium.
     pub converged: bool,
+    /// Others are as good: the line may sag, buckle or turn to another side just as well.
+    pub others: bool,
 }
 
 /// Work done by the solver since the start.
@@ -124,6 +127,8 @@ const REST_SHARE: f64 = 0.01;
 const SLIGHT: f64 = 1.0e-14;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
 const MESH_SHARE: f64 = 0.3;
+/// No mesh is refined beyond this many elements.
+const MOST_ELEMENTS: usize = 300;
 /// How far `cable-1994` may leave the path of its fairlead, as a share of the line's length: it prescribes the velocity and adds it up.
 const MIXED_JUMP: f64 = 1.0e-4;
 
@@ -152,7 +157,8 @@ impl Simulation {
         if !meshing::is_automatic(line) {
             return Ok(simulation);
         }
-        if !(line.attachments.is_empty() && line.constraints.is_empty()) {
+        // Catenaries are not the shapes of lines that bend or carry bodies.
+        if simulation.pushes() || !(line.attachments.is_empty() && line.constraints.is_empty()) {
             let found = simulation.shapes(&meshing::fairlead_places(scene, line));
             if !found.is_empty() {
                 shapes = found;
@@ -161,8 +167,13 @@ impl Simulation {
         }
         let tension =
             |simulation: &mut Simulation| simulation.settle(line.fairlead.into(), 0.0).ok().map(|_| simulation.outputs().tension);
-        let allowed = MESH_SHARE * scene.solver.tolerance;
-        for _ in 0..3 {
+        // Stiff elements in a tight bend lock a little: bights may need many.
+        let (share, rounds) = if simulation.pushes() { (MESH_SHARE / 3.0, 7) } else { (MESH_SHARE, 3) };
+        let allowed = share * scene.solver.tolerance;
+        for _ in 0..rounds {
+            if simulation.elements() > MOST_ELEMENTS {
+                break;
+            }
             let mut halved = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
             match (tension(&mut simulation), tension(&mut halved)) {
                 (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * simulation.scale.tension(fine) => {
@@ -174,6 +185,19 @@ impl Simulation {
             }
         }
         Ok(simulation)
+    }
+
+    /// Whether any part of the line carries compression.
+    fn pushes(&self) -> bool {
+        self.line.mesh().sections.iter().any(|section| section.tension_floor() < 0.0)
+    }
+
+    /// Whether the line would stay where it is if it were at rest there: no small deviation grows. Friction and flow do not count.
+    pub fn is_stable(&self) -> bool {
+        let (mesh, state) = (self.line.mesh().clone(), &self.moment.state);
+        let bare = physics::build(mesh, self.surroundings.bare(), self.supports.clone());
+        let still = State { u: state.u.clone(), clock: state.clock, ..State::new(state.u.nodes()) };
+        stability::is_stable(bare.as_ref(), &still, statics::unit_of_inertia(bare.as_ref()))
     }
 
     /// Shapes of the line at rest with its fairlead in several places, as far as they are found.
@@ -304,14 +328,16 @@ impl Simulation {
             balance = mixed.settle(self.line.as_ref(), &mut self.moment.state, balance);
         }
         self.begin_anew(smooth.as_deref());
-        if balance.converged() {
-            return Ok(StaticsReport { iterations: balance.iterations, residual: balance.residual, converged: true });
+        if balance.converged() && !settled.unstable {
+            let Balance { iterations, residual, .. } = balance;
+            return Ok(StaticsReport { iterations, residual, converged: true, others: settled.others });
         }
         Err(Error::Statics(Box::new(Unbalanced {
             line: self.name.clone(),
             iterations: balance.iterations,
             residual: balance.residual,
             allowed: balance.allowed,
+            unstable: settled.unstable,
             s: self.arc_length(balance.node),
             zone: self.zone(balance.node),
         })))
@@ -331,8 +357,8 @@ impl Simulation {
             }
             physics::build(made, if variant.bare { surroundings.bare() } else { surroundings }, supports.clone())
         };
+        let pushes = self.pushes();
         let (line, newton, state) = (self.line.as_ref(), &mut self.newton, &mut self.moment.state);
-        let pushes = mesh.sections.iter().any(|section| section.tension_floor() < 0.0);
         let rough = line.holding_nodes() > 0;
         let smooth = rough.then(|| make(WHOLE, self.surroundings.without_friction()));
         let without = self.surroundings.without_friction();

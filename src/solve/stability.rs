@@ -18,7 +18,7 @@ use crate::solve::newton::{Newton, motion};
 use crate::solve::turn;
 
 /// ε as a share of weight / (mass · length).
-const NEUTRAL: f64 = 1.0e-6;
+const NEUTRAL: f64 = 1.0e-4;
 /// How closely the rate of the least stable deviation is known.
 const CLOSE: f64 = 1.3;
 /// Steps of the inverse iteration that finds it.
