@@ -49,7 +49,7 @@ pub type Logger = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, ..
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct CallbackFunctions {
-    /// Where messages go; may be NULL.
+    /// Where messages go; never NULL.
     pub logger: Option<Logger>,
     /// Not used.
     pub allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
@@ -240,6 +240,11 @@ pub unsafe extern "C" fn fmi2Instantiate(
     // SAFETY: a string of the master's.
     let name = unsafe { text(instanceName, "instanceName") };
     let log = Log { logger, environment, name: CString::new(*name.as_ref().unwrap_or(&"moorline")).unwrap_or_default() };
+    // The standard wants a logger; without one nobody would be told why a call was refused. The memory functions are not used, and masters
+    // leave them out.
+    if logger.is_none() {
+        return std::ptr::null_mut();
+    }
     let instance = guarded(|| {
         if name?.is_empty() {
             return Err(Refusal::Instantiate("instanceName is empty".to_owned()));

@@ -37,13 +37,15 @@ pub struct Libraries {
 }
 
 impl Libraries {
-    /// The libraries that lie beside the running program or, as in cargo's folders, one above it.
+    /// The libraries that lie beside the running program or, as in cargo's folders, one above it or in `deps` beside it: there `cargo run`
+    /// leaves what nobody asked for by name.
     pub fn beside_program() -> Libraries {
         let program = std::env::current_exe().unwrap_or_default();
         let folders = program.ancestors().skip(1).take(2);
         let mut libraries = Libraries::default();
         for folder in folders {
             libraries.add_from(folder);
+            libraries.add_from(&folder.join("deps"));
         }
         libraries
     }
@@ -94,7 +96,7 @@ pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Res
     let mut files: Vec<(String, Vec<u8>)> = vec![
         ("modelDescription.xml".to_owned(), description.into_bytes()),
         ("model.png".to_owned(), PICTURE.to_vec()),
-        ("documentation/index.html".to_owned(), DOCUMENTATION.as_bytes().to_vec()),
+        ("documentation/index.html".to_owned(), documentation(&Interface::new(&scene)).into_bytes()),
         ("documentation/licenses/license.txt".to_owned(), LICENSE.as_bytes().to_vec()),
         (format!("resources/{SCENE_FILE}"), serde_json::to_vec_pretty(&scene).map_err(|error| failure(out, &error))?),
     ];
@@ -145,6 +147,7 @@ pub fn render(scene: &Scene, name: &str, date: &str) -> String {
     for line in lines().take_while(|line| !line.starts_with("    <!--")) {
         let line = match line {
             _ if line.starts_with("  modelName=\"") => with_attribute(line, "modelName", &escaped(name)),
+            _ if line.starts_with("  version=\"") => with_attribute(line, "version", env!("CARGO_PKG_VERSION")),
             _ if line.starts_with("  guid=\"") => with_attribute(line, "guid", &guid(scene)),
             _ if line.starts_with("  generationDateAndTime=\"") => with_attribute(line, "generationDateAndTime", date),
             _ => line.to_owned(),
@@ -186,6 +189,36 @@ fn description_of(variable: &Variable) -> String {
         _ => line.to_owned(),
     });
     changed.map(|line| line + "\n").collect()
+}
+
+/// Where the documentation names the variables.
+const VARIABLES: &str = "<!-- variables -->";
+
+/// The page of the FMU, with all its variables.
+fn documentation(interface: &Interface) -> String {
+    let mut rows = String::from(
+        "<table>\n<tr><th>name</th><th>reference</th><th>causality</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
+    );
+    for variable in interface.variables() {
+        let element = description_of(variable);
+        let of = |name: &str| element.lines().find_map(|line| attribute(line, name)).unwrap_or_default().to_owned();
+        let unit = match of("declaredType").as_str() {
+            "Position" => "m".to_owned(),
+            "Velocity" => "m/s".to_owned(),
+            "Force" => "N".to_owned(),
+            "Angle" => "rad".to_owned(),
+            _ => of("unit"),
+        };
+        rows.push_str(&format!(
+            "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{unit}</td><td>{}</td><td>{}</td></tr>\n",
+            of("name"),
+            variable.reference,
+            of("causality"),
+            of("start"),
+            of("description")
+        ));
+    }
+    DOCUMENTATION.replace(VARIABLES, &(rows + "</table>"))
 }
 
 /// Which output depends on which input: those of its own line.

@@ -162,6 +162,7 @@ impl Parameter {
             Parameter::SeabedStiffness => Real(scene.environment.seabed.stiffness.get_or_insert(0.0)),
             Parameter::SeabedDamping => Real(&mut scene.environment.seabed.damping),
             Parameter::SeabedFriction => Real(&mut scene.environment.seabed.friction),
+            Parameter::Gravity => Real(&mut scene.environment.gravity),
         })
     }
 
@@ -192,6 +193,7 @@ impl Parameter {
             Parameter::SeabedStiffness => "environment.seabed.stiffness".to_owned(),
             Parameter::SeabedDamping => "environment.seabed.damping".to_owned(),
             Parameter::SeabedFriction => "environment.seabed.friction".to_owned(),
+            Parameter::Gravity => "environment.gravity".to_owned(),
             Parameter::AnchorPositionX | Parameter::AnchorPositionY | Parameter::AnchorPositionZ => {
                 format!("lines[{line}].anchor")
             }
@@ -209,7 +211,8 @@ impl Parameter {
             | Parameter::WaterDensity
             | Parameter::SeabedStiffness
             | Parameter::SeabedDamping
-            | Parameter::SeabedFriction => false,
+            | Parameter::SeabedFriction
+            | Parameter::Gravity => false,
             Parameter::LineLength
             | Parameter::LineElements
             | Parameter::LineEa
