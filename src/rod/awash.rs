@@ -6,15 +6,15 @@
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple};
 use crate::algebra::polynomial::{Cubic, Interval};
-use crate::algebra::shape::{self, GAUSS3, GAUSS4, GaussPoint, Shape};
+use crate::algebra::shape::{self, GAUSS3, GAUSS4, GaussPoint};
+use crate::algebra::tensor::Tensor;
 use crate::rod::element::{Ends, Motion, Table, Weights};
-use crate::rod::element_tangent::{ElementTangent, PointTangent};
+use crate::rod::element_tangent::ElementTangent;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::stretch::Direction;
 use crate::rod::surface::{self, MOST_PARTS};
 use crate::sea::clock::Clock;
-use nalgebra::Vector3;
 use pulp::{Simd, WithSimd};
 
 /// What leaves a line when it leaves the water: buoyancy, drag and added mass.
@@ -34,35 +34,31 @@ impl Surface {
         }
     }
 
-    /// The element and its height above the surface, unless it is certainly all wet.
-    fn lifted<W: Water>(&self, table: &Table, water: &W, at: &Motion, e: usize) -> Option<(Ends<f64>, Cubic)> {
-        let ends = Ends::gather(at.u, e, table.length_of(e));
-        let height = ends.height();
+    /// The element and its wet parts, unless it is certainly all wet.
+    fn lifted<'a, W: Water>(&'a self, table: &Table, water: &'a W, at: &Motion, e: usize) -> Option<WetShare<'a, W>> {
+        let length = table.length_of(e);
+        let u = Ends::gather(at.u, e, length);
+        let height = u.height();
         if height.below(water.lowest_surface() - 0.5 * self.diameter[e]) || table.is_joint(e) {
             return None;
         }
-        Some((ends, if W::WAVES { surface::above_waves(&ends, water, &at.clock) } else { height }))
+        let height = if W::WAVES { surface::above_waves(&u, water, &at.clock) } else { height };
+        Some(WetShare {
+            water,
+            clock: at.clock,
+            ends: [u, Ends::gather(at.v, e, length), Ends::gather(at.a, e, length)],
+            per_length: 1.0 / length,
+            per_diameter: 1.0 / self.diameter[e],
+            buoyancy: self.buoyancy[e],
+            coefficients: table.coefficients(e),
+            points: self.points(&height, e, length),
+            height,
+        })
     }
 
     /// What the force of the water on the wet share of element `e` adds to the forces on its ends, if the element is lifted.
     pub fn forces<W: Water>(&self, table: &Table, water: &W, at: &Motion, e: usize) -> Option<[Triple<f64>; 4]> {
-        let (u, height) = self.lifted(table, water, at, e)?;
-        let length = table.length_of(e);
-        let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-        let points = self.points(&height, e, length);
-        let coefficients = table.coefficients(e);
-        let wet = WetShare {
-            water,
-            clock: at.clock,
-            ends: [&u, &v, &a],
-            per_length: 1.0 / length,
-            height: &height,
-            per_diameter: 1.0 / self.diameter[e],
-            buoyancy: self.buoyancy[e],
-            coefficients: &coefficients,
-            points: &points,
-        };
-        Some(table.processor.dispatch(wet))
+        Some(table.processor.dispatch(Forces { share: &self.lifted(table, water, at, e)? }))
     }
 
     /// Quadrature points of the wet parts of an element, given its height above the water and its length.
@@ -82,17 +78,6 @@ impl Surface {
         if height.at(0.5 * (part.from + part.to)) < -0.5 * self.diameter[e] { &GAUSS3 } else { &GAUSS4 }
     }
 
-    /// Wet fraction φ at x in [0, 1] of an element, and its change with height [1/m].
-    fn wet<W: Water>(&self, height: &Cubic, x: f64, point: &PointMotion<f64>, e: usize) -> (f64, f64) {
-        surface::wet_fraction(if W::WAVES { height.at(x) } else { point.place.z }, self.diameter[e])
-    }
-
-    /// Force of the water under water [N/m].
-    fn force<W: Water>(&self, water: &W, k: &Coefficients<f64>, point: &PointMotion<f64>, e: usize) -> Vector3<f64> {
-        let buoyancy = Vector3::new(0.0, 0.0, self.buoyancy[e]);
-        if W::PRESENT { Vector3::from(morison::force((), water, k, point)) + buoyancy } else { buoyancy }
-    }
-
     /// Adds the tangent of the force of the water on the wet share of a lifted element to the matrix.
     pub fn tangent<W: Water>(
         &self,
@@ -103,27 +88,9 @@ impl Surface {
         weights: &Weights,
         matrix: &mut BlockTridiagonal<6>,
     ) {
-        let Some((u, height)) = self.lifted(table, water, at, e) else { return };
-        let length = table.length_of(e);
-        let (v, a) = (Ends::gather(at.v, e, length), Ends::gather(at.a, e, length));
-        let coefficients = table.coefficients(e);
-        let mut sum = ElementTangent::zero(());
-        let points = self.points(&height, e, length);
-        for (&x, &weight) in points.x.iter().zip(&points.weight).take(points.count) {
-            let shape = Shape::at(x);
-            let point = point_motion(at.clock, &u, &v, &a, length, &shape);
-            let (wet, by_height) = self.wet::<W>(&height, x, &point, e);
-            let force = self.force(water, &coefficients, &point, e);
-            let by_rising = force * Vector3::z().transpose() * (-by_height * weights.u);
-            let mut tangent = PointTangent::of_load(by_rising.into());
-            if W::PRESENT {
-                let water = morison::tangent((), water, &coefficients, &point, weights);
-                tangent.load = water.by_motion.scale_add(-wet, tangent.load);
-                tangent.turning = water.by_slope.times(-wet);
-            }
-            sum.add(&shape, weight, 1.0 / length, &tangent);
-        }
-        sum.add_to(matrix, e, length, e + 1);
+        let Some(share) = self.lifted(table, water, at, e) else { return };
+        let sum = table.processor.dispatch(Changes { share: &share, weights });
+        sum.add_to(matrix, e, table.length_of(e), e + 1);
     }
 }
 
@@ -150,51 +117,103 @@ impl Points {
     }
 }
 
-/// Minus the force of the water on the wet share of one element, on its ends: the points of its quadrature side by side.
+/// The wet share of one element.
 struct WetShare<'a, W> {
     water: &'a W,
     clock: Clock,
     /// Of u, v and a.
-    ends: [&'a Ends<f64>; 3],
+    ends: [Ends<f64>; 3],
     per_length: f64,
-    height: &'a Cubic,
+    height: Cubic,
     per_diameter: f64,
     buoyancy: f64,
-    coefficients: &'a Coefficients<f64>,
-    points: &'a Points,
+    coefficients: Coefficients<f64>,
+    points: Points,
 }
 
-impl<W: Water> WithSimd for WetShare<'_, W> {
+/// A wet share in every lane.
+struct InLanes<'a, F: Real, W> {
+    share: &'a WetShare<'a, W>,
+    cpu: F::Cpu,
+    ends: [Ends<F>; 3],
+    coefficients: Coefficients<F>,
+}
+
+/// Quadrature points side by side.
+struct WetPoints<F: Real> {
+    /// Shape functions there, of unit length.
+    value: [F; 4],
+    slope: [F; 4],
+    weight: F,
+    motion: PointMotion<F>,
+    /// ½ - z/d, of which the wet fraction is the part between 0 and 1.
+    draught: F,
+}
+
+impl<F: Real> WetPoints<F> {
+    /// φ.
+    #[inline(always)]
+    fn wet(&self, cpu: F::Cpu) -> F {
+        self.draught.max(F::splat(cpu, 0.0)).min(F::splat(cpu, 1.0))
+    }
+}
+
+impl<'a, F: Real, W: Water> InLanes<'a, F, W> {
+    #[inline(always)]
+    fn new(cpu: F::Cpu, share: &'a WetShare<'a, W>) -> Self {
+        let [u, v, a] = &share.ends;
+        InLanes { share, cpu, ends: [u.splat(cpu), v.splat(cpu), a.splat(cpu)], coefficients: share.coefficients.splat(cpu) }
+    }
+
+    /// The points from `first` on.
+    #[inline(always)]
+    fn points(&self, first: usize) -> WetPoints<F> {
+        let (share, cpu, [u, v, a]) = (self.share, self.cpu, &self.ends);
+        let (x, weight) = (F::load(cpu, &share.points.x, first), F::load(cpu, &share.points.weight, first));
+        let (value, slope) = shape::in_lanes(x);
+        let place = u.combine_lanes(&value);
+        let height = if W::WAVES { share.height.in_lanes(x) } else { place.z };
+        let motion = PointMotion {
+            clock: share.clock,
+            direction: Direction::of(u.combine_lanes(&slope) * F::splat(cpu, share.per_length)),
+            place,
+            velocity: v.combine_lanes(&value),
+            acceleration: a.combine_lanes(&value),
+        };
+        WetPoints { value, slope, weight, motion, draught: height * -share.per_diameter + 0.5 }
+    }
+
+    /// Force of the water under water [N/m].
+    #[inline(always)]
+    fn force(&self, points: &WetPoints<F>) -> Triple<F> {
+        let mut force = Triple::zero(self.cpu);
+        if W::PRESENT {
+            force = morison::force(self.cpu, self.share.water, &self.coefficients, &points.motion);
+        }
+        force.z = force.z + self.share.buoyancy;
+        force
+    }
+}
+
+/// Minus the force of the water on the wet share of one element, on its ends: the points of its quadrature side by side.
+struct Forces<'a, W> {
+    share: &'a WetShare<'a, W>,
+}
+
+impl<W: Water> WithSimd for Forces<'_, W> {
     type Output = [Triple<f64>; 4];
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> [Triple<f64>; 4] {
-        let (u, v, a) = (self.ends[0].splat(cpu), self.ends[1].splat(cpu), self.ends[2].splat(cpu));
-        let coefficients = self.coefficients.splat(cpu);
+        let lanes = InLanes::<Lanes<V>, W>::new(cpu, self.share);
         let mut sum = [Triple::<Lanes<V>>::zero(cpu); 4];
         let mut first = 0;
-        while first < self.points.count {
-            let (x, weight) = (Lanes::<V>::load(cpu, &self.points.x, first), Lanes::<V>::load(cpu, &self.points.weight, first));
-            let (value, slope) = shape::in_lanes(x);
-            let place = u.combine_lanes(&value);
-            let height = if W::WAVES { self.height.in_lanes(x) } else { place.z };
-            let wet = (height * -self.per_diameter + 0.5).max(Lanes::<V>::splat(cpu, 0.0)).min(Lanes::<V>::splat(cpu, 1.0));
-            let mut force = Triple::zero(cpu);
-            if W::PRESENT {
-                let point = PointMotion {
-                    clock: self.clock,
-                    direction: Direction::of(u.combine_lanes(&slope) * Lanes::<V>::splat(cpu, self.per_length)),
-                    place,
-                    velocity: v.combine_lanes(&value),
-                    acceleration: a.combine_lanes(&value),
-                };
-                force = morison::force(cpu, self.water, &coefficients, &point);
-            }
-            force.z = force.z + self.buoyancy;
-            let force = force * (-wet * weight);
+        while first < self.share.points.count {
+            let points = lanes.points(first);
+            let force = lanes.force(&points) * (-points.wet(cpu) * points.weight);
             let mut k = 0;
             while k < 4 {
-                sum[k] = force.mul_add(value[k], sum[k]);
+                sum[k] = force.mul_add(points.value[k], sum[k]);
                 k += 1;
             }
             first += V::F64_LANES;
@@ -203,12 +222,39 @@ impl<W: Water> WithSimd for WetShare<'_, W> {
     }
 }
 
-fn point_motion(clock: Clock, u: &Ends<f64>, v: &Ends<f64>, a: &Ends<f64>, length: f64, shape: &Shape) -> PointMotion<f64> {
-    PointMotion {
-        clock,
-        direction: Direction::of(u.combine(&shape.slope).scale(1.0 / length)),
-        place: u.combine(&shape.value),
-        velocity: v.combine(&shape.value),
-        acceleration: a.combine(&shape.value),
+/// The tangent of `Forces`.
+struct Changes<'a, W> {
+    share: &'a WetShare<'a, W>,
+    weights: &'a Weights,
+}
+
+impl<W: Water> WithSimd for Changes<'_, W> {
+    type Output = ElementTangent<f64>;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> ElementTangent<f64> {
+        let lanes = InLanes::<Lanes<V>, W>::new(cpu, self.share);
+        let (zero, one) = (Lanes::<V>::splat(cpu, 0.0), Lanes::<V>::splat(cpu, 1.0));
+        let mut sum = ElementTangent::<Lanes<V>>::zero(cpu);
+        let mut first = 0;
+        while first < self.share.points.count {
+            let points = lanes.points(first);
+            let wet = points.wet(cpu);
+            // Where the line is awash, φ falls with height.
+            let awash =
+                points.draught.positive() * (one - points.draught).positive() * (self.share.per_diameter * self.weights.u);
+            let mut load = Tensor::isotropic(cpu, zero);
+            load.0[2] = lanes.force(&points) * awash;
+            let mut turning = Tensor::isotropic(cpu, zero);
+            if W::PRESENT {
+                let water = morison::tangent(cpu, self.share.water, &lanes.coefficients, &points.motion, self.weights);
+                load = water.by_motion.mul_add(-wet, load);
+                turning = water.by_slope.times(-wet);
+            }
+            let per_length = Lanes::<V>::splat(cpu, self.share.per_length);
+            sum.add_points([&points.value, &points.slope], points.weight, per_length, load, turning);
+            first += V::F64_LANES;
+        }
+        sum.total()
     }
 }

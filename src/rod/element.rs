@@ -112,7 +112,7 @@ impl Table {
             put(Property::Damping, e, p.damping);
             put(Property::Floor, e, if mesh.limp { 0.0 } else { p.tension_floor() });
             put(Property::Friction, e, SLACK_FRICTION * p.slack_weight() * element.length);
-            put(Property::Ei, e, p.ei);
+            put(Property::Ei, e, if mesh.folds { p.bight_stiffness(element.length) } else { p.ei });
             put(Property::DragNormal, e, p.drag_normal);
             put(Property::DragTangential, e, p.drag_tangential);
             put(Property::AddedNormal, e, p.added_normal);

@@ -73,6 +73,37 @@ impl<F: Real> ElementTangent<F> {
         }
     }
 
+    /// Adds `measure` times the change of the load at a point of its own in every lane, all of one element of length 1/`per_length`, where the
+    /// shape functions are `value` and `slope` (unit length).
+    #[inline(always)]
+    pub fn add_points(&mut self, [value, slope]: [&[F; 4]; 2], measure: F, per_length: F, load: Tensor<F>, turning: Tensor<F>) {
+        let (load, turning) = (load.times(measure), turning.times(measure * per_length));
+        let mut l = 0;
+        while l < 4 {
+            let loads = load.mul_add(value[l], turning.times(slope[l]));
+            let mut k = 0;
+            while k < 4 {
+                self.0[l][k] = loads.mul_add(value[k], self.0[l][k]);
+                k += 1;
+            }
+            l += 1;
+        }
+    }
+
+    /// The sum of all lanes.
+    #[inline(always)]
+    pub fn total(&self) -> ElementTangent<f64> {
+        let mut sum = ElementTangent::zero(());
+        let mut at = 0;
+        while at < 16 {
+            let (l, k) = (at / 4, at % 4);
+            let [x, y, z] = self.0[l][k].0;
+            sum.0[l][k] = Tensor([x.total(), y.total(), z.total()]);
+            at += 1;
+        }
+        sum
+    }
+
     /// Adds products[k][l] times one matrix to block (k, l).
     pub fn add_products(&mut self, products: &[[f64; 4]; 4], matrix: &Tensor<F>) {
         for l in 0..4 {

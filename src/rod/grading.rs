@@ -50,6 +50,8 @@ pub struct Rules {
     pub wave_number: f64,
     /// The motion is so fast that the line goes slack and snaps.
     pub snaps: bool,
+    /// The line is slack: its bights go where it moves, and are narrower than any element.
+    pub slack: bool,
     /// Shortest element [m].
     pub shortest: f64,
 }
@@ -60,6 +62,8 @@ const HANGING: f64 = 15.0;
 const CARRIED: f64 = 7.0;
 /// Elements per line that snaps, at refinement 1: what runs along it after a snap is as sharp everywhere.
 const SNAPPING: f64 = 55.0;
+/// Elements per slack line, at refinement 1.
+const SLACK: f64 = 18.0;
 /// Decay lengths per element on the touchdown zone, at refinement 1.
 const DECAY_LENGTHS: f64 = 2.8;
 /// Elements per transverse wave length.
@@ -72,6 +76,11 @@ const GROWTH: f64 = 2.5;
 /// Wanted element lengths along the line, from samples of the line in several positions of its fairlead.
 pub fn stations(rules: &Rules, positions: &[Vec<Sample>]) -> Vec<Station> {
     let count = positions.first().map_or(0, Vec::len);
+    if rules.slack && !rules.snaps {
+        let share = rules.length / (SLACK * rules.refinement);
+        let here = |sample: &Sample| Station { s: sample.s, size: share.min(sea_size(rules, sample)) };
+        return positions.first().into_iter().flatten().map(here).collect();
+    }
     let zone = touchdown_zone(rules, positions);
     let mut stations: Vec<Station> = (0..count)
         .map(|i| {
@@ -107,13 +116,14 @@ fn free_size(rules: &Rules, sample: &Sample) -> f64 {
     };
     let share = rules.length / (rules.refinement * count);
     let wave = (sample.tension.max(0.0) / rules.mass).sqrt() * rules.period / (PER_WAVE * rules.refinement.sqrt());
-    let k = rules.wave_number;
-    let sea = if k > 0.0 {
-        IN_WAVES / (k * rules.refinement.sqrt()) * (-0.5 * k * sample.height.min(0.0)).exp()
-    } else {
-        f64::INFINITY
-    };
+    let sea = sea_size(rules, sample);
     if rules.period > 0.0 && !sample.carried { share.min(wave).min(sea) } else { share.min(sea) }
+}
+
+/// Longest element in waves [m].
+fn sea_size(rules: &Rules, sample: &Sample) -> f64 {
+    let k = rules.wave_number;
+    if k > 0.0 { IN_WAVES / (k * rules.refinement.sqrt()) * (-0.5 * k * sample.height.min(0.0)).exp() } else { f64::INFINITY }
 }
 
 /// From where to where the point of touchdown moves, with a margin of three decay lengths, and the least tension there.

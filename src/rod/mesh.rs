@@ -41,7 +41,12 @@ pub struct Mesh {
     pub points: Vec<usize>,
     /// No element pushes, whatever its bending stiffness: a line on the way to equilibrium, whose energy is convex.
     pub limp: bool,
+    /// The line is slack and flexible: its bights are tighter than elements can show, and get a bending stiffness of their own (`bight_stiffness`).
+    pub folds: bool,
 }
+
+/// Bending stiffness of a bight as a share of w ℓ³: a bight is then about (EI/w)^⅓ = ℓ/7 wide, which an element can show.
+const BIGHT: f64 = 3.0e-3;
 
 /// A stretch of one material that is meshed by itself.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,6 +125,13 @@ impl Properties {
         if self.ei > 0.0 { 0.0 } else { self.weight_in_air }
     }
 
+    /// EI of an element of length ℓ in a bight that is tighter than it can show [N·m²]: 0.003 w ℓ³, w weight in water or a hundredth of that in
+    /// air. A flexible line in a bight without it is bunched up in an element, whose slope then has no direction. It
+    /// vanishes with the mesh, and carries no compression.
+    pub fn bight_stiffness(&self, length: f64) -> f64 {
+        BIGHT * self.weight.abs().max(0.01 * self.weight_in_air) * length.powi(3)
+    }
+
     /// Whether the slope may jump between this and a neighbouring section.
     fn joins_with_a_kink(&self, other: &Properties) -> bool {
         self.ea != other.ea || self.damping != other.damping || (self.ei > 0.0) != (other.ei > 0.0)
@@ -134,6 +146,11 @@ impl Mesh {
         Mesh::of_parts(sections.into_iter().zip(lengths).map(part).collect())
     }
 
+    /// Whether any element resists bending.
+    pub fn bends(&self) -> bool {
+        self.folds || self.sections.iter().any(|section| section.ei > 0.0)
+    }
+
     /// The mesh of parts, counted from the anchor.
     pub fn of_parts(parts: Vec<Part>) -> Mesh {
         let mut mesh = Mesh {
@@ -143,6 +160,7 @@ impl Mesh {
             elasticities: Vec::new(),
             points: Vec::new(),
             limp: false,
+            folds: false,
         };
         for (section, Part { properties, lengths, after_point }) in parts.into_iter().enumerate() {
             let kink = mesh.sections.last().is_some_and(|before| before.joins_with_a_kink(&properties));

@@ -104,7 +104,7 @@ pub fn build(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<
 
 fn in_plane(mesh: Mesh, around: Surroundings, supports: Supports) -> Box<dyn Line> {
     let flow = around.current.clone().unwrap_or_default();
-    let stiff = mesh.sections.iter().any(|section| section.ei > 0.0);
+    let stiff = mesh.bends();
     // What is rarer than Hooke's law by engineering strain carries terms of bending and of a current whether it needs them or not.
     match (around.stretch, mesh.is_special(), around.current.is_some(), stiff) {
         (types::Stretch::Exact, false, false, false) => {
@@ -126,7 +126,7 @@ fn in_plane(mesh: Mesh, around: Surroundings, supports: Supports) -> Box<dyn Lin
 }
 
 fn with_bending<S: Stretch>(mesh: Mesh, surroundings: Surroundings, supports: Supports) -> Box<dyn Line> {
-    if mesh.sections.iter().any(|section| section.ei > 0.0) {
+    if mesh.bends() {
         with_water::<S, Stiff>(mesh, surroundings, supports)
     } else {
         with_water::<S, Flexible>(mesh, surroundings, supports)
@@ -261,7 +261,16 @@ pub fn decisions(scene: &Scene, mesh: &Mesh, supports: &Supports) -> Vec<Decisio
             "strain follows from effective tension",
         ),
         decide("axial damping", any(|p| p.damping > 0.0), "a line type has damping > 0", "damping is 0"),
-        decide("bending", any(|p| p.ei > 0.0), "a line type has ei > 0", "ei is 0 everywhere: the line is flexible"),
+        decide(
+            "bending",
+            mesh.bends(),
+            if mesh.folds {
+                "ei is 0, but the line is slack: its bights get what the mesh can show of them"
+            } else {
+                "a line type has ei > 0"
+            },
+            "ei is 0 everywhere: the line is flexible",
+        ),
         decide(
             "drag and added mass",
             feels_water(mesh, supports),

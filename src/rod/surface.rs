@@ -84,18 +84,6 @@ pub fn wet_parts(height: &Cubic, diameter: f64) -> Parts {
     parts
 }
 
-/// Wet fraction φ [-] and its change with height [1/m].
-pub fn wet_fraction(z: f64, diameter: f64) -> (f64, f64) {
-    let wet = 0.5 - z / diameter;
-    if wet <= 0.0 {
-        (0.0, 0.0)
-    } else if wet >= 1.0 {
-        (1.0, 0.0)
-    } else {
-        (wet, -1.0 / diameter)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

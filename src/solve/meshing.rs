@@ -18,6 +18,12 @@ use std::f64::consts::TAU;
 const DYNAMIC: f64 = 1.6;
 /// Shortest element as a share of the length of a bight.
 const BEND: f64 = 0.3;
+/// A snap that is less than this share of what the line carries anyway needs no mesh of its own.
+const SNAP: f64 = 0.2;
+/// A line is slack where its fairlead carries less than this share of what hangs, or of the tension that counts (`scale`).
+const SLACK: f64 = 0.1;
+/// Share of what a line weighs, or carries elsewhere on the way of its fairlead, below which errors of tension are not pursued.
+pub const SHARE: f64 = 0.1;
 /// Samples per element of a shape on which a grading is based.
 const PER_ELEMENT: usize = 4;
 /// Samples along the line on which the grading is based.
@@ -55,7 +61,7 @@ pub fn mesh_of(scene: &Scene, line: &Line, shapes: &[Vec<Sample>], finer: f64) -
         }
         start = end;
     }
-    Mesh { elasticities, ..Mesh::of_parts(parts) }
+    Mesh { elasticities, folds: is_slack(scene, line), ..Mesh::of_parts(parts) }
 }
 
 /// Arc lengths from the anchor at which something acts on a line between its ends, rising.
@@ -139,6 +145,9 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
     } else {
         ground.resistance.iter().map(|r| r.stiffness).fold(f64::INFINITY, f64::min)
     };
+    let speed = fairlead_speed(&scene.motion);
+    // What a snap adds, and what the line carries on the way of its fairlead without any.
+    let (snap, carried) = (speed * mean(&|p| (p.ea * p.mass).sqrt()), largest_tension(scene, line));
     let (anchor, falls) = (Vector3::from(line.anchor), mean(&|p| fall_speed(p)));
     let slackens = places.iter().any(|fairlead| (fairlead - anchor).norm() < whole.length);
     let drop = places.iter().map(|fairlead| (fairlead.z - line.anchor[2]).abs()).fold(0.0, f64::max);
@@ -159,7 +168,8 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
             _ => 0.0,
         },
         wave_number: sea.map_or(0.0, |(_, k)| k),
-        snaps: slackens && fairlead_speed(&scene.motion) > falls,
+        snaps: slackens && speed > falls && snap > SNAP * carried && carried > SHARE * whole.total_weight(),
+        slack: is_slack(scene, line),
         shortest: (whole.length / 400.0).max(0.02 * drop).min(whole.length / 20.0).min(bend) / finer,
     }
 }
@@ -181,6 +191,18 @@ fn fairlead_speed(motion: &Motion) -> f64 {
         }
         _ => 0.0,
     }
+}
+
+/// Whether a flexible line is slack: next to nothing is at its fairlead, as its catenary there says. Its length goes into bights.
+pub fn is_slack(scene: &Scene, line: &Line) -> bool {
+    let (whole, anchor, fairlead) = (whole(scene, line), Vector3::from(line.anchor), Vector3::from(line.fairlead));
+    if whole.bends() || !line.is_pinned(0.0) || !line.is_pinned(line.length()) {
+        return false;
+    }
+    let frame = Frame::new(&whole, &bounds(scene), &anchor, &fairlead);
+    let hanging = frame.span.weight * (frame.span.fairlead_height - frame.span.anchor_height).abs().min(whole.length);
+    let counts = SHARE * whole.total_weight().max(largest_tension(scene, line));
+    frame.tension(whole.length).0 < SLACK * hanging.max(counts)
 }
 
 /// Places of the fairlead, at rest, that bound what its motion does to the line.

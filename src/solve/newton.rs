@@ -85,7 +85,7 @@ const STALE: f64 = 0.3;
 /// Damped iterations before giving up.
 const DAMPED: usize = 25;
 /// Damped iterations up to which the next stage is tried with whole steps again.
-const SMOOTH: usize = 4;
+const SMOOTH: usize = 2;
 /// Contraction beyond which the tangent is factored anew.
 const SLOW: f64 = 0.15;
 

@@ -12,17 +12,15 @@
 use crate::rod::line::Line;
 use crate::rod::state::State;
 use crate::scene::types::{self, Scene};
-use crate::solve::meshing;
+use crate::solve::meshing::{self, SHARE};
 use crate::solve::newton::{Newton, motion};
 
-/// Share of what a line weighs, or carries elsewhere on the way of its fairlead, below which errors of tension are not pursued.
-const SHARE: f64 = 0.1;
 /// T_0/EA above which the tolerance of slopes is strict enough, inverted: it is on the built-in case, whose T_0/EA is 4e-4.
 const STRICTNESS: f64 = 4.0e3;
 /// Bounds of ℓ as shares of the line's length.
 const LENGTHS: [f64; 2] = [1.0e-5, 0.02];
 /// The upper bound of a slack line is larger by T_s/T, up to this factor.
-const MOST_SLACK: f64 = 5.0;
+const MOST_SLACK: f64 = 16.0;
 
 /// The scale of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +34,8 @@ pub struct Scale {
 impl Scale {
     /// The scale of a line of a scene, discretised as `discrete`.
     pub fn of(scene: &Scene, line: &types::Line, discrete: &dyn Line) -> Scale {
-        let own = SHARE * (discrete.mesh().total_weight() + discrete.burden()).max(meshing::largest_tension(scene, line));
+        let weight = discrete.mesh().total_weight() + discrete.burden();
+        let own = SHARE * weight.max(meshing::largest_tension(scene, line));
         Scale { least: scene.solver.tension_scale.unwrap_or(own), own }
     }
 

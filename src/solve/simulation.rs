@@ -127,6 +127,9 @@ const REST_SHARE: f64 = 0.01;
 const SLIGHT: f64 = 1.0e-14;
 /// A mesh meets the tolerance in statics when halving all elements changes the end tension by less than this share of it.
 const MESH_SHARE: f64 = 0.3;
+/// Where bights are tighter than elements, the weight of a part of one is at their ends or is not: the same as a share of the
+/// weight that hangs.
+const BIGHT_SHARE: f64 = 8.0;
 /// No mesh is refined beyond this many elements.
 const MOST_ELEMENTS: usize = 300;
 /// How far `cable-1994` may leave the path of its fairlead, as a share of the line's length: it prescribes the velocity and adds it up.
@@ -169,14 +172,17 @@ impl Simulation {
             |simulation: &mut Simulation| simulation.settle(line.fairlead.into(), 0.0).ok().map(|_| simulation.outputs().tension);
         // Stiff elements in a tight bend lock a little: bights may need many.
         let (share, rounds) = if simulation.pushes() { (MESH_SHARE / 3.0, 7) } else { (MESH_SHARE, 3) };
-        let allowed = share * scene.solver.tolerance;
+        let allowed = |simulation: &Simulation, tension: f64| {
+            let of_bights = if simulation.line.mesh().folds { BIGHT_SHARE * simulation.range_of_tension() } else { 0.0 };
+            scene.solver.tolerance * of_bights.max(share * simulation.scale.tension(tension))
+        };
         for _ in 0..rounds {
             if simulation.elements() > MOST_ELEMENTS {
                 break;
             }
             let mut halved = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
             match (tension(&mut simulation), tension(&mut halved)) {
-                (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed * simulation.scale.tension(fine) => {
+                (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed(&simulation, fine) => {
                     finer *= 1.5;
                     simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
                 }
@@ -185,6 +191,15 @@ impl Simulation {
             }
         }
         Ok(simulation)
+    }
+
+    /// Difference between the largest and the least tension along the line [N]: the weight of what hangs.
+    fn range_of_tension(&self) -> f64 {
+        let forces = outputs::node_forces(self.line.as_ref(), &self.moment.state);
+        let tensions = forces.iter().map(|force| force.norm());
+        let (least, most) =
+            tensions.fold((f64::INFINITY, 0.0f64), |(least, most), tension| (least.min(tension), most.max(tension)));
+        most - least
     }
 
     /// Whether any part of the line carries compression.
@@ -319,10 +334,9 @@ impl Simulation {
         let (anchor, fairlead) = (self.start_of(0, self.anchor), self.start_of(self.line.last(), fairlead));
         start::guess(self.line.mesh(), &self.bounds, &anchor, &fairlead, &mut self.moment.state.u);
         self.line.place(0, &mut self.moment.state.u, time);
+        self.leave_plane_if_out();
         let (settled, smooth) = self.balance();
-        if self.line.is_planar() && !is_in_plane(&self.moment.state.u, self.anchor.y) {
-            self.leave_plane();
-        }
+        self.leave_plane_if_out();
         let mut balance = settled.balance;
         if let Some(mixed) = &mut self.mixed {
             balance = mixed.settle(self.line.as_ref(), &mut self.moment.state, balance);
@@ -341,6 +355,13 @@ impl Simulation {
             s: self.arc_length(balance.node),
             zone: self.zone(balance.node),
         })))
+    }
+
+    /// A heap of slack line is coiled, and what can push may bow out: neither stays in its plane.
+    fn leave_plane_if_out(&mut self) {
+        if self.line.is_planar() && !is_in_plane(&self.moment.state.u, self.anchor.y) {
+            self.leave_plane();
+        }
     }
 
     /// Finds the equilibrium without friction, and from there, if there is friction, that of the line as it is laid and the places of the
