@@ -153,6 +153,10 @@ struct Played {
     statics: usize,
     work: Counters,
     wall: Duration,
+    /// Time inside the steps.
+    stepping: Duration,
+    /// Time simulated [s].
+    simulated: f64,
 }
 
 fn path_of(loaded: &Loaded) -> Path {
@@ -329,7 +333,7 @@ fn finite(simulation: &Simulation) -> Option<Outputs> {
     (good && simulation.nodes().iter().all(|node| node.position.iter().all(|x| x.is_finite()))).then_some(outputs)
 }
 
-fn fate(trial: &Trial, simulation: &mut Simulation, statics: &mut usize) -> Fate {
+fn fate(trial: &Trial, simulation: &mut Simulation, statics: &mut usize, stepping: &mut Duration) -> Fate {
     let settled = simulation.settle(trial.scene.lines[0].fairlead.into(), 0.0);
     match settled {
         _ if finite(simulation).is_none() => return Fate::Broken("not finite in statics".into()),
@@ -342,7 +346,10 @@ fn fate(trial: &Trial, simulation: &mut Simulation, statics: &mut usize) -> Fate
         Ok(report) => *statics = report.iterations,
     }
     for row in 1..=(trial.until / trial.step).round() as usize {
-        match simulation.advance(row as f64 * trial.step, &trial.path) {
+        let began = Instant::now();
+        let advanced = simulation.advance(row as f64 * trial.step, &trial.path);
+        *stepping += began.elapsed();
+        match advanced {
             Ok(()) => {}
             Err(Error::Step(stuck)) if matches!(stuck.cause, Cause::OutOfReach { .. }) => return Fate::OutOfReach,
             Err(error @ Error::Step(_)) => return Fate::Stuck(error.to_string()),
@@ -357,6 +364,7 @@ fn fate(trial: &Trial, simulation: &mut Simulation, statics: &mut usize) -> Fate
 
 fn play(trial: &Trial) -> Played {
     let (began, mut statics, mut work) = (Instant::now(), 0, Counters::default());
+    let mut stepping = Duration::ZERO;
     let fate = panic::catch_unwind(AssertUnwindSafe(|| {
         if check::check(&trial.scene, "stress").is_err() {
             return Fate::Refused;
@@ -364,14 +372,15 @@ fn play(trial: &Trial) -> Played {
         match Simulation::new(&trial.scene, 0) {
             Err(error) => Fate::Broken(error.to_string()),
             Ok(mut simulation) => {
-                let fate = fate(trial, &mut simulation, &mut statics);
+                let fate = fate(trial, &mut simulation, &mut statics, &mut stepping);
                 work = simulation.counters();
                 fate
             }
         }
     }));
     let fate = fate.unwrap_or_else(|_| Fate::Broken("panic".into()));
-    Played { class: trial.class, name: trial.name.clone(), fate, statics, work, wall: began.elapsed() }
+    let (wall, simulated) = (began.elapsed(), trial.until);
+    Played { class: trial.class, name: trial.name.clone(), fate, statics, work, wall, stepping, simulated }
 }
 
 fn play_all(mut trials: Vec<Trial>) -> Vec<Played> {
@@ -415,6 +424,53 @@ fn table(played: &[Played]) -> String {
             statics[statics.len() - 1],
             iterations as f64 / steps.max(1) as f64,
             part.iter().map(|p| p.wall).max().unwrap_or_default().as_secs_f64(),
+        );
+    }
+    text
+}
+
+/// How the work is spread over the scenes that ran: iterations, and time, per simulated second and element, as multiples of the median.
+fn spread(played: &[Played]) -> String {
+    let ran: Vec<&Played> = played.iter().filter(|p| matches!(p.fate, Fate::Ran) && p.work.newton_iterations > 0).collect();
+    if ran.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(
+        "| of the scenes | iterations per simulated second | time per simulated second and element |\n| --- | ---: | ---: |\n",
+    );
+    let iterations = |p: &Played| p.work.newton_iterations as f64 / p.simulated;
+    let elements = |p: &Played| p.work.element_iterations as f64 / p.work.newton_iterations as f64;
+    let time = |p: &Played| p.stepping.as_secs_f64() / (p.simulated * elements(p));
+    let sorted = |of: &dyn Fn(&Played) -> f64| {
+        let mut values: Vec<f64> = ran.iter().map(|p| of(p)).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    };
+    let (iterations, times) = (sorted(&iterations), sorted(&time));
+    let at = |values: &[f64], share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
+    for (name, share) in [("half", 0.5), ("90 %", 0.9), ("99 %", 0.99), ("99.9 %", 0.999), ("all", 1.0)] {
+        let ratio = |values: &[f64]| at(values, share) / at(values, 0.5);
+        let _ = writeln!(
+            text,
+            "| {name} | {:.0} ({:.1}) | {:.1} us ({:.1}) |",
+            at(&iterations, share),
+            ratio(&iterations),
+            1e6 * at(&times, share),
+            ratio(&times)
+        );
+    }
+    let mut dear = ran.clone();
+    dear.sort_by(|a, b| time(b).total_cmp(&time(a)));
+    for p in dear.iter().filter(|p| time(p) > 20.0 * at(&times, 0.5)) {
+        let _ = writeln!(
+            text,
+            "- {:.1} times the median: {}, {}: {} steps, {} iterations in {:.1} s",
+            time(p) / at(&times, 0.5),
+            p.class,
+            p.name,
+            p.work.steps,
+            p.work.newton_iterations,
+            p.simulated
         );
     }
     text
@@ -566,7 +622,7 @@ fn the_whole_suite() {
     trials.extend((0..100).map(wavy_trial).chain((0..100).map(burdened_trial)));
     trials.extend(leaps().into_iter().chain(hard_beds()).chain(snapping_chains()).chain(slack_lines()));
     let played = play_all(trials);
-    report += &format!("{}\n{}", table(&played), details(&played));
+    report += &format!("{}\n{}\n{}", table(&played), spread(&played), details(&played));
     let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("stress");
     std::fs::create_dir_all(&directory).expect("a directory for the report");
     std::fs::write(directory.join("report.md"), &report).expect("the report can be written");

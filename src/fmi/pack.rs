@@ -368,7 +368,7 @@ mod tests {
         let references: Vec<u32> = text.lines().filter_map(|line| attribute(line, "valueReference")?.parse().ok()).collect();
         assert!(references.is_sorted_by(|a, b| a < b), "value references do not rise: {references:?}");
         let (first, second) = text.split_once("dependencies=\"1 2 3 4 5 6\"").unwrap();
-        assert!(first.contains("<Outputs>") && second.contains("dependencies=\"47 48 49 50 51 52\""));
+        assert!(first.contains("<Outputs>") && second.contains("dependencies=\"48 49 50 51 52 53\""));
         assert!(osp_description(&Interface::new(&scene)).contains("<Variable ref=\"'stern line'.force.x\"/>"));
     }
 

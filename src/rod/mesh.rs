@@ -125,11 +125,10 @@ impl Properties {
         if self.ei > 0.0 { 0.0 } else { self.weight_in_air }
     }
 
-    /// EI of an element of length ℓ in a bight that is tighter than it can show [N·m²]: 0.003 w ℓ³, w weight in water or a hundredth of that in
-    /// air. A flexible line in a bight without it is bunched up in an element, whose slope then has no direction. It
+    /// EI of an element of length ℓ in a bight that is tighter than it can show [N·m²]: 0.003 w ℓ³, w weight in water. A flexible line in a bight without it is bunched up in an element, whose slope then has no direction. It
     /// vanishes with the mesh, and carries no compression.
     pub fn bight_stiffness(&self, length: f64) -> f64 {
-        BIGHT * self.weight.abs().max(0.01 * self.weight_in_air) * length.powi(3)
+        BIGHT * self.weight.abs() * length.powi(3)
     }
 
     /// Whether the slope may jump between this and a neighbouring section.

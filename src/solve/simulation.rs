@@ -154,10 +154,20 @@ impl Simulation {
                 allowed: format!("there are {}", scene.lines.len()),
             });
         };
-        let mut finer = 1.0;
-        let mut shapes = if meshing::is_automatic(line) { meshing::catenaries(scene, line) } else { Vec::new() };
-        let mut simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
-        if !meshing::is_automatic(line) {
+        let (automatic, mut finer) = (meshing::is_automatic(line), 1.0);
+        let mut shapes = if automatic { meshing::catenaries(scene, line) } else { Vec::new() };
+        let make = |shapes: &[Vec<Sample>], finer: f64, folds: bool| {
+            let mesh = meshing::mesh_of(scene, line, shapes, finer);
+            let folds = folds && mesh.folds;
+            Simulation::with_mesh(scene, index, path, Mesh { folds, ..mesh })
+        };
+        let mut simulation = make(&shapes, finer, true)?;
+        // What stiffens the bights of a slack line may keep statics from its end.
+        let folds = simulation.line.mesh().folds && simulation.settle(line.fairlead.into(), 0.0).is_ok();
+        if simulation.line.mesh().folds && !folds {
+            simulation = make(&shapes, finer, false)?;
+        }
+        if !automatic {
             return Ok(simulation);
         }
         // Catenaries are not the shapes of lines that bend or carry bodies.
@@ -165,7 +175,7 @@ impl Simulation {
             let found = simulation.shapes(&meshing::fairlead_places(scene, line));
             if !found.is_empty() {
                 shapes = found;
-                simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
+                simulation = make(&shapes, finer, folds)?;
             }
         }
         let tension =
@@ -180,11 +190,11 @@ impl Simulation {
             if simulation.elements() > MOST_ELEMENTS {
                 break;
             }
-            let mut halved = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, 2.0 * finer))?;
+            let mut halved = make(&shapes, 2.0 * finer, folds)?;
             match (tension(&mut simulation), tension(&mut halved)) {
                 (Some(coarse), Some(fine)) if (coarse - fine).abs() > allowed(&simulation, fine) => {
                     finer *= 1.5;
-                    simulation = Simulation::with_mesh(scene, index, path, meshing::mesh_of(scene, line, &shapes, finer))?;
+                    simulation = make(&shapes, finer, folds)?;
                 }
                 (None, Some(_)) => simulation = halved,
                 _ => break,
@@ -230,7 +240,7 @@ impl Simulation {
     fn with_mesh(scene: &Scene, index: usize, path: Option<&Path>, mesh: Mesh) -> Result<Simulation, Error> {
         let solver = &scene.solver;
         let is_mixed = solver.scheme == Scheme::Cable1994;
-        let mesh = if is_mixed { mesh.without_joints() } else { mesh };
+        let mesh = if is_mixed { Mesh { folds: false, ..mesh.without_joints() } } else { mesh };
         let supports = physics::supports(scene, &scene.lines[index], &mesh);
         let mixed = solver.uncontrolled_step().filter(|_| is_mixed).map(|step| {
             let line = setup::line(scene, &scene.lines[index], &mesh, supports.clone());
