@@ -40,7 +40,11 @@ impl Libraries {
     /// The libraries that lie beside the running program or, as in cargo's folders, one above it or in `deps` beside it: there `cargo run`
     /// leaves what nobody asked for by name.
     pub fn beside_program() -> Libraries {
-        let program = std::env::current_exe().unwrap_or_default();
+        Libraries::beside(&std::env::current_exe().unwrap_or_default())
+    }
+
+    /// The same beside any program.
+    fn beside(program: &Path) -> Libraries {
         let folders = program.ancestors().skip(1).take(2);
         let mut libraries = Libraries::default();
         for folder in folders {
@@ -370,6 +374,18 @@ mod tests {
         let (first, second) = text.split_once("dependencies=\"1 2 3 4 5 6\"").unwrap();
         assert!(first.contains("<Outputs>") && second.contains("dependencies=\"48 49 50 51 52 53\""));
         assert!(osp_description(&Interface::new(&scene)).contains("<Variable ref=\"'stern line'.force.x\"/>"));
+    }
+
+    /// `cargo run` in an empty folder leaves the program in `target/release` and its library in `target/release/deps`.
+    #[test]
+    fn the_library_is_found_where_cargo_run_leaves_it() {
+        let folder = std::env::temp_dir().join(format!("moorline-pack-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("deps")).unwrap();
+        assert!(Libraries::beside(&folder.join("moorline")).files.is_empty());
+        std::fs::write(folder.join("deps/libmoorline.so"), b"").unwrap();
+        let found = Libraries::beside(&folder.join("moorline"));
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(found.files.len(), 1);
     }
 
     #[test]

@@ -1,7 +1,10 @@
 """FMPy reads, validates and simulates the FMU; the archive holds what it must."""
 
+import pathlib
+import re
 import sys
 import zipfile
+from xml.etree import ElementTree
 
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
@@ -24,6 +27,12 @@ for name in (
     assert name in names, f"{name} is missing in {names}"
 
 description = read_model_description(path)
+root = ElementTree.fromstring(zipfile.ZipFile(path).read("modelDescription.xml"))
+assert root.attrib["version"] == re.search(r'^version = "(.*)"', pathlib.Path("Cargo.toml").read_text(), re.M)[1]
+page = zipfile.ZipFile(path).read("documentation/index.html").decode()
+for variable in description.modelVariables:
+    row = f"<code>{variable.name}</code></td><td>{variable.valueReference}</td><td>{variable.causality}</td>"
+    assert row in page, f"the page does not name {variable.name}"
 simulation = description.coSimulation
 assert simulation.modelIdentifier == "moorline" and description.modelName == "moorline"
 for capability in (
@@ -56,3 +65,14 @@ result = simulate_fmu(
 )
 assert len(result) == 101 and all(np.isfinite(result[name]).all() for name in result.dtype.names)
 print(f"tension {result['tension'][0]:.0f} to {result['tension'][-1]:.0f} N")
+
+# Half the gravity, half the weight: a chain of half the EA stretches the same and carries half of everything. The bed's stiffness goes along.
+half = {"gravity": 0.5 * 9.80665, "line.ea": 2.5e8}
+stiffness = next(float(v.start) for v in description.modelVariables if v.name == "seabed.stiffness")
+assert float(next(v.start for v in description.modelVariables if v.name == "line.ea")) == 2 * half["line.ea"]
+half["seabed.stiffness"] = 0.5 * stiffness
+whole, halved = (
+    simulate_fmu(path, stop_time=0.1, output_interval=0.1, start_values=values, output=["tension"])["tension"][0] for values in ({}, half)
+)
+# Both statics are good to 1e-6.
+assert abs(halved / whole - 0.5) < 1e-5, (whole, halved)
