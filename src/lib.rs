@@ -123,14 +123,18 @@ pub mod solve {
 
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.
 pub mod fmi {
+    pub mod fit;
     #[allow(unsafe_code)]
     pub mod fmi2;
+    pub mod freshness;
     pub mod input_path;
+    pub mod inputs;
     pub mod instance;
     pub mod pack;
     pub mod phase;
     pub mod refusal;
     pub mod resource;
+    pub mod segment;
     pub mod snapshot;
     pub mod variables;
 }

@@ -3,10 +3,12 @@
 //! A refused call changes nothing. A step that fails leaves the line as it was before; `set_state` and `reset` go on from there.
 
 use crate::error::Error;
-use crate::fmi::input_path::{InputPath, Inputs, Plan, Segment};
+use crate::fmi::input_path::{InputPath, Plan};
+use crate::fmi::inputs::Inputs;
 use crate::fmi::phase::{Call, Phase, StepStatus, allowed};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource;
+use crate::fmi::segment::Segment;
 use crate::fmi::snapshot::{End, Moment, State};
 use crate::fmi::variables::{DEFAULT_STEP, Interface, Interpolation, Kind, LOG_CATEGORIES, Meaning, Variable};
 use crate::scene::check;

@@ -3,7 +3,10 @@
 //! Bytes, little-endian: magic (8), version (4), fingerprint of scene and interface (16), length of what follows (8), the state,
 //! checksum over all before it (16). Text of the instance's log and other handed-out states are not part of it.
 
-use crate::fmi::input_path::{CAPACITY, InputPath, Inputs, Sample};
+use crate::fmi::fit::{Fit, Point};
+use crate::fmi::freshness::{Age, Pace};
+use crate::fmi::input_path::{Axis, CAPACITY, InputPath, Sample};
+use crate::fmi::inputs::Inputs;
 use crate::fmi::instance::Experiment;
 use crate::fmi::phase::{Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
@@ -13,7 +16,7 @@ use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
 
 const MAGIC: &[u8; 8] = b"MOORLINE";
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 const HEADER: usize = 8 + 4 + 16 + 8;
 const CHECKSUM: usize = 16;
 
@@ -204,7 +207,15 @@ impl End {
             writer.real(sample.time);
             writer.triple(sample.position);
             writer.triple(sample.velocity);
+            sample.fresh.into_iter().for_each(|fresh| writer.flag(fresh));
         }
+        writer.real(self.path.absorbed);
+        writer.real(self.path.stepped);
+        writer.real(self.path.pace.last);
+        self.path.pace.intervals.iter().for_each(|interval| writer.real(*interval));
+        writer.count(self.path.pace.slower as usize);
+        writer.flag(self.path.axes.is_some());
+        self.path.axes.iter().flatten().for_each(|axis| write_axis(axis, writer));
         let o = &self.outputs;
         writer.real(o.time);
         [o.fairlead, o.force, o.anchor_force].into_iter().for_each(|vector| writer.triple(vector.into()));
@@ -224,9 +235,14 @@ impl End {
         let (position, velocity, velocity_given) = (reader.triple()?, reader.triple()?, reader.flag()?);
         let count = reader.count().filter(|count| *count <= CAPACITY)?;
         let sample = |reader: &mut Reader<'_>| {
-            Some(Sample { time: reader.real()?, position: reader.triple()?, velocity: reader.triple()? })
+            let (time, position, velocity) = (reader.real()?, reader.triple()?, reader.triple()?);
+            Some(Sample { time, position, velocity, fresh: [reader.flag()?, reader.flag()?, reader.flag()?] })
         };
-        let path = InputPath { samples: reader.several(count, sample)?, position, velocity, velocity_given };
+        let samples = reader.several(count, sample)?;
+        let (absorbed, stepped) = (reader.real()?, reader.real()?);
+        let pace = Pace { last: reader.real()?, intervals: reader.reals()?, slower: u32::try_from(reader.count()?).ok()? };
+        let axes = if reader.flag()? { Some([read_axis(reader)?, read_axis(reader)?, read_axis(reader)?]) } else { None };
+        let path = InputPath { samples, position, velocity, velocity_given, axes, absorbed, stepped, pace };
         let time = reader.real()?;
         let mut vector = || reader.triple().map(Vector3::from);
         let (fairlead, force, anchor_force) = (vector()?, vector()?, vector()?);
@@ -246,6 +262,36 @@ impl End {
         let last = LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
         Some(End { origin, inputs, path, outputs, last })
     }
+}
+
+fn write_axis(axis: &Axis, writer: &mut Writer) {
+    let Axis { given, ages, carried, since, fit } = axis;
+    given.iter().for_each(|value| writer.real(*value));
+    for Age { since, intervals, meant } in ages {
+        writer.real(*since);
+        intervals.iter().for_each(|interval| writer.real(*interval));
+        writer.flag(*meant);
+    }
+    carried.iter().for_each(|term| writer.real(*term));
+    writer.real(*since);
+    for Point { time, position, velocity } in fit.last {
+        [time, position, velocity].into_iter().for_each(|value| writer.real(value));
+    }
+    writer.count(fit.count as usize);
+    fit.sums.iter().chain(&fit.squares).for_each(|value| writer.real(*value));
+    writer.flag(fit.misfit);
+}
+
+fn read_axis(reader: &mut Reader<'_>) -> Option<Axis> {
+    let given = reader.reals()?;
+    let mut age = || Some(Age { since: reader.real()?, intervals: reader.reals()?, meant: reader.flag()? });
+    let ages = [age()?, age()?];
+    let (carried, since) = (reader.reals()?, reader.real()?);
+    let mut point = || Some(Point { time: reader.real()?, position: reader.real()?, velocity: reader.real()? });
+    let last = [point()?, point()?];
+    let count = u32::try_from(reader.count()?).ok()?;
+    let fit = Fit { last, count, sums: reader.reals()?, squares: reader.reals()?, misfit: reader.flag()? };
+    Some(Axis { given, ages, carried, since, fit })
 }
 
 /// Appends values, little-endian.
@@ -292,6 +338,14 @@ impl Reader<'_> {
 
     fn real(&mut self) -> Option<f64> {
         self.array().map(f64::from_le_bytes)
+    }
+
+    fn reals<const N: usize>(&mut self) -> Option<[f64; N]> {
+        let mut values = [0.0; N];
+        for value in &mut values {
+            *value = self.real()?;
+        }
+        Some(values)
     }
 
     fn count(&mut self) -> Option<usize> {
