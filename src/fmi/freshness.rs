@@ -47,6 +47,11 @@ impl Age {
         self.meant || time - self.since > patience
     }
 
+    /// Whether a time is before the one at which a new value is expected.
+    pub fn is_early(&self, time: f64) -> bool {
+        !self.meant && time - self.since < REGULAR * self.intervals[0]
+    }
+
     /// Whether values were held for times that differ: more than a master's clock may be off.
     pub fn is_irregular(&self) -> bool {
         let known = self.intervals.iter().copied().filter(|interval| *interval > 0.0);

@@ -240,7 +240,7 @@ impl End {
         };
         let samples = reader.several(count, sample)?;
         let (absorbed, stepped) = (reader.real()?, reader.real()?);
-        let pace = Pace { last: reader.real()?, intervals: reader.reals()?, slower: u32::try_from(reader.count()?).ok()? };
+        let pace = Pace { last: reader.real()?, intervals: reader.reals()?, slower: reader.number()? };
         let axes = if reader.flag()? { Some([read_axis(reader)?, read_axis(reader)?, read_axis(reader)?]) } else { None };
         let path = InputPath { samples, position, velocity, velocity_given, axes, absorbed, stepped, pace };
         let time = reader.real()?;
@@ -289,7 +289,7 @@ fn read_axis(reader: &mut Reader<'_>) -> Option<Axis> {
     let (carried, since) = (reader.reals()?, reader.real()?);
     let mut point = || Some(Point { time: reader.real()?, position: reader.real()?, velocity: reader.real()? });
     let last = [point()?, point()?];
-    let count = u32::try_from(reader.count()?).ok()?;
+    let count = reader.number()?;
     let fit = Fit { last, count, sums: reader.reals()?, squares: reader.reals()?, misfit: reader.flag()? };
     Some(Axis { given, ages, carried, since, fit })
 }
@@ -350,6 +350,10 @@ impl Reader<'_> {
 
     fn count(&mut self) -> Option<usize> {
         self.array().map(u64::from_le_bytes).and_then(|value| usize::try_from(value).ok())
+    }
+
+    fn number(&mut self) -> Option<u32> {
+        u32::try_from(self.count()?).ok()
     }
 
     fn flag(&mut self) -> Option<bool> {
