@@ -155,15 +155,17 @@ impl Lines {
         Lines { instances, places }
     }
 
-    fn set(&mut self, ship: &Ship, q: &Six, v: &Six, velocities: bool) {
+    fn set(&mut self, ship: &Ship, q: &Six, v: &Six, velocities: bool) -> Result<(), String> {
         for (number, (instance, place)) in self.instances.iter_mut().zip(&mut self.places).enumerate() {
             let (offset, velocity) = ship.fairlead(number, q, v);
             *place = offset;
-            instance.set(Kind::Real, &[0, 1, 2], offset.as_slice()).expect("a place");
+            let refused = |refusal: moorline::fmi::refusal::Refusal| refusal.to_string();
+            instance.set(Kind::Real, &[0, 1, 2], offset.as_slice()).map_err(refused)?;
             if velocities {
-                instance.set(Kind::Real, &[3, 4, 5], velocity.as_slice()).expect("a velocity");
+                instance.set(Kind::Real, &[3, 4, 5], velocity.as_slice()).map_err(refused)?;
             }
         }
+        Ok(())
     }
 
     fn step(&mut self, time: f64, h: f64) -> Result<(), String> {
@@ -221,9 +223,9 @@ fn play(mass: f64, recipe: Recipe) -> Result<Played, String> {
         let start = (q, v);
         if order == Order::ShipFirst {
             ship.step(time, step, &mut q, &mut v, &ahead);
-            lines.set(&ship, &q, &v, velocities);
+            lines.set(&ship, &q, &v, velocities)?;
         } else {
-            lines.set(&ship, &start.0, &start.1, velocities);
+            lines.set(&ship, &start.0, &start.1, velocities)?;
         }
         lines.step(time, step)?;
         let forces = lines.forces();

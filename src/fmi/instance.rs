@@ -22,8 +22,12 @@ use std::collections::BTreeMap;
 const LONGEST_STEP: f64 = 1.0e6;
 /// Shortest communication step [s]; less drowns in rounding wherever the solver divides by its square.
 const SHORTEST_STEP: f64 = 1.0e-9;
-/// Two times are the same if they differ by less than this part of their size.
-const SAME_TIME: f64 = 1.0e-9;
+/// Two times are the same if they differ by less than this part of a step: a clock in single precision or in nanoseconds is the master's to have.
+const SAME_STEP: f64 = 1.0e-3;
+/// Or of their size, as far as single precision goes; never more than `MOST_STEP` of a step.
+const SAME_TIME: f64 = 1.2e-7;
+/// A clock that is off by more than this part of a step means another time.
+const MOST_STEP: f64 = 0.1;
 
 /// What the master said of the experiment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -447,7 +451,7 @@ impl Instance {
             return refuse("a million seconds is the limit");
         }
         let clock = self.moment.clock;
-        let tolerance = (SAME_TIME * time.abs().max(step)).min(1e-3 * step).max(4.0 * f64::EPSILON * clock.abs());
+        let tolerance = same(time, step).max(4.0 * f64::EPSILON * clock.abs());
         if !((time - clock).abs() <= tolerance) {
             return Err(Refusal::CommunicationPoint { given: time, clock });
         }
@@ -456,9 +460,7 @@ impl Instance {
             return refuse("it is too short to be told from the present time");
         }
         match self.moment.experiment.stop {
-            Some(stop) if until > stop + (SAME_TIME * stop.abs().max(step)).min(1e-3 * step) => {
-                Err(Refusal::PastStop { time, step, stop })
-            }
+            Some(stop) if until > stop + same(stop, step) => Err(Refusal::PastStop { time, step, stop }),
             _ => Ok(until),
         }
     }
@@ -691,6 +693,11 @@ fn first_moment(interface: &Interface) -> Moment {
         settled: false,
         ends: inputs.into_iter().map(End::at_rest).collect(),
     }
+}
+
+/// By how much times may differ and be the same [s].
+fn same(time: f64, step: f64) -> f64 {
+    (SAME_STEP * step).max((SAME_TIME * time.abs()).min(MOST_STEP * step))
 }
 
 fn is_finite(outputs: &Outputs) -> bool {

@@ -192,7 +192,7 @@ assert any("equilibrium" in text for _, _, text in line.log), line.log
 # --- Steps
 for step in (0.0, -0.1, NAN, INFINITE, -INFINITE, 1e300, 1e-300):
     refused(line, f"step of {step}", line.do_step(0.0, step), "communicationStepSize")
-for time in (0.05, -0.1, 1e-6, NAN, INFINITE):
+for time in (0.05, -0.1, 2e-3, NAN, INFINITE):
     refused(line, f"step from {time} instead of 0", line.do_step(time, 0.1), "currentCommunicationPoint")
 refused(line, "step past the stop time", line.do_step(0.0, 20.1), "20.0", "stop time")
 refused(line, "parameter after the start", line.set_real({"line.length": 1300.0}), "line.length", "fixed")
