@@ -123,6 +123,7 @@ pub mod solve {
 
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.
 pub mod fmi {
+    pub mod experiment;
     pub mod fit;
     #[allow(unsafe_code)]
     pub mod fmi2;
@@ -130,6 +131,8 @@ pub mod fmi {
     pub mod input_path;
     pub mod inputs;
     pub mod instance;
+    #[allow(unsafe_code)]
+    pub mod own_place;
     pub mod pack;
     pub mod phase;
     pub mod refusal;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 /// From the ground up: a layer imports from its own storey and those below it.
 const STOREYS: [&[&str]; 8] =
     [&["error"], &["algebra", "scene"], &["sea"], &["rod"], &["cable1994"], &["solve"], &["report", "fmi"], &["cli"]];
-/// The C functions of FMI, the only place where `unsafe` is needed.
-const C_INTERFACE: &str = "src/fmi/fmi2.rs";
+/// The C functions of FMI, and what asks the loader of the system: the only places where `unsafe` is needed.
+const C_INTERFACE: [&str; 2] = ["src/fmi/fmi2.rs", "src/fmi/own_place.rs"];
 /// Lines of a file, tests not counted.
 const ONE_SITTING: usize = 700;
 /// Ways to give up that are for tests only; built so that this file would pass its own test.
@@ -145,7 +145,7 @@ fn unsafe_stands_in_the_c_interface_only() {
     let mut faults = Vec::new();
     for source in sources() {
         let found: Vec<_> = source.lines.iter().filter(|(_, line)| is_unsafe(line)).collect();
-        if source.name == C_INTERFACE {
+        if C_INTERFACE.contains(&source.name.as_str()) {
             assert!(!found.is_empty(), "a C interface without unsafe? The search finds nothing");
         } else {
             faults.extend(found.iter().map(|(number, _)| format!("{}:{number}", source.name)));

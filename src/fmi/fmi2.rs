@@ -11,6 +11,7 @@
 #![allow(non_snake_case)]
 
 use crate::fmi::instance::Instance;
+use crate::fmi::own_place;
 use crate::fmi::phase::StepStatus;
 use crate::fmi::refusal::Refusal;
 use crate::fmi::variables::Kind;
@@ -255,8 +256,14 @@ pub unsafe extern "C" fn fmi2Instantiate(
             )));
         }
         // SAFETY: strings of the master's.
-        let (guid, location) = unsafe { (text(fmuGUID, "fmuGUID")?, text(fmuResourceLocation, "fmuResourceLocation")?) };
-        Instance::new(guid, location, loggingOn != 0)
+        let guid = unsafe { text(fmuGUID, "fmuGUID")? };
+        let location = if fmuResourceLocation.is_null() {
+            None
+        } else {
+            // SAFETY: likewise.
+            Some(unsafe { text(fmuResourceLocation, "fmuResourceLocation")? })
+        };
+        Instance::new(guid, location, own_place::resources(), loggingOn != 0)
     });
     match instance {
         Ok(instance) => Box::into_raw(Box::new(Component { instance, log })).cast(),

@@ -9,29 +9,42 @@ use std::path::PathBuf;
 /// Name of the scene's file in the folder `resources`.
 pub const SCENE_FILE: &str = "scene.json";
 
-/// The folder that a `fmuResourceLocation` names: a `file:` URI (percent-encoded or not; with one, two or three slashes; a Windows drive or
-/// network share), or, as some masters give it, a plain path.
-pub fn folder(location: &str) -> Result<PathBuf, Refusal> {
+/// The folders that a `fmuResourceLocation` may name, the likeliest first: a `file:` URI (percent-encoded or not; with one, two or three slashes; a
+/// Windows drive, written `Z:` or `Z|`, or a network share), or, as some masters give it, a plain path.
+pub fn folders(location: &str) -> Result<Vec<PathBuf>, Refusal> {
     let refuse = |reason: &str| Refusal::Resource { path: location.to_owned(), reason: reason.to_owned() };
-    let Some((scheme, rest)) = location.split_once(':').filter(|(scheme, _)| scheme.len() > 1) else {
-        return Ok(PathBuf::from(location));
+    let plain = location.starts_with("\\\\");
+    let Some((scheme, rest)) = location.split_once(':').filter(|(scheme, _)| scheme.len() > 1 && !plain) else {
+        return Ok(vec![PathBuf::from(location)]);
     };
     if !scheme.eq_ignore_ascii_case("file") {
         return Err(refuse("fmuResourceLocation must be a file: URI"));
     }
     let decoded =
         percent_decoded(rest).ok_or_else(|| refuse("the percent-encoding of fmuResourceLocation is not valid UTF-8"))?;
-    let path = match decoded.strip_prefix("//") {
+    let mut folders = vec![path_of(&decoded)];
+    // A path that holds %20 and was not encoded.
+    if decoded != rest {
+        folders.push(path_of(rest));
+    }
+    Ok(folders)
+}
+
+/// The path of a URI without its scheme.
+fn path_of(rest: &str) -> PathBuf {
+    let path = match rest.strip_prefix("//") {
         Some(after) if after.starts_with('/') => after.to_owned(),
         Some(after) => match after.strip_prefix("localhost/") {
             Some(local) => format!("/{local}"),
             None if has_drive(after) => after.to_owned(),
             None => format!("//{after}"),
         },
-        None => decoded,
+        None => rest.to_owned(),
     };
-    let drive = path.strip_prefix('/').filter(|after| has_drive(after));
-    Ok(PathBuf::from(drive.unwrap_or(&path)))
+    match path.strip_prefix('/').unwrap_or(&path) {
+        after if has_drive(after) => PathBuf::from(after.replacen('|', ":", 1)),
+        _ => PathBuf::from(path),
+    }
 }
 
 /// `C:` or, in old URIs, `C|` at the beginning.
@@ -61,9 +74,20 @@ fn percent_decoded(text: &str) -> Option<String> {
     String::from_utf8(decoded).ok()
 }
 
-/// Reads the scene that was packed into the FMU.
-pub fn read_scene(location: &str) -> Result<Scene, Refusal> {
-    let path = folder(location)?.join(SCENE_FILE);
+/// Reads the scene that was packed into the FMU: where the master says that its resources are, or else, if there is no scene, where the
+/// library lies (`own`). Whether it is the FMU that the master read is told by the GUID.
+pub fn read_scene(location: Option<&str>, own: Option<PathBuf>) -> Result<Scene, Refusal> {
+    let said = location.filter(|location| !location.trim().is_empty()).map(folders).transpose()?.unwrap_or_default();
+    let mut places: Vec<PathBuf> = said.into_iter().chain(own).map(|folder| folder.join(SCENE_FILE)).collect();
+    if places.is_empty() {
+        let (path, reason) = (
+            String::from("fmuResourceLocation"),
+            String::from("it is NULL or empty, and the library does not lie in an unpacked FMU"),
+        );
+        return Err(Refusal::Resource { path, reason });
+    }
+    let place = places.iter().position(|place| place.exists()).unwrap_or(0);
+    let path = places.swap_remove(place);
     let refuse = |reason: String| Refusal::Resource { path: path.display().to_string(), reason };
     let text = fs::read_to_string(&path).map_err(|error| refuse(error.to_string()))?;
     let scene: Scene = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
@@ -110,16 +134,18 @@ mod tests {
             ("file://server/share/resources", "//server/share/resources"),
             ("/tmp/plain", "/tmp/plain"),
             ("C:\\plain\\windows", "C:\\plain\\windows"),
+            ("file:///Z|/fmu/resources", "Z:/fmu/resources"),
+            ("\\\\?\\Z:\\fmu\\resources", "\\\\?\\Z:\\fmu\\resources"),
         ];
         for (location, path) in table {
-            assert_eq!(folder(location).as_deref(), Ok(Path::new(path)), "{location}");
+            assert_eq!(folders(location).unwrap()[0], Path::new(path), "{location}");
         }
     }
 
     #[test]
     fn other_schemes_and_broken_encodings_are_refused() {
         for (location, words) in [("https://example.org/resources", "file: URI"), ("file:///tmp/%FF", "UTF-8")] {
-            let message = folder(location).map_err(|refusal| refusal.to_string());
+            let message = folders(location).map_err(|refusal| refusal.to_string());
             assert!(message.as_ref().is_err_and(|message| message.contains(words) && message.contains(location)), "{message:?}");
         }
     }

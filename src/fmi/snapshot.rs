@@ -3,11 +3,11 @@
 //! Bytes, little-endian: magic (8), version (4), fingerprint of scene and interface (16), length of what follows (8), the state,
 //! checksum over all before it (16). Text of the instance's log and other handed-out states are not part of it.
 
+use crate::fmi::experiment::Experiment;
 use crate::fmi::fit::{Fit, Point};
 use crate::fmi::freshness::{Age, Pace};
 use crate::fmi::input_path::{Axis, CAPACITY, InputPath, Sample};
 use crate::fmi::inputs::Inputs;
-use crate::fmi::instance::Experiment;
 use crate::fmi::phase::{Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource::fingerprint;

@@ -42,9 +42,6 @@ not_made("empty name", "instanceName", name=b"")
 not_made("name that is not UTF-8", "UTF-8", name=b"\xff")
 not_made("model exchange", "fmi2CoSimulation", type=0)
 not_made("type 7", "fmi2CoSimulation", type=7)
-not_made("no resource location", "fmuResourceLocation", "NULL", location=None)
-not_made("resources not there", "nowhere", "scene.json", location=b"file:///nowhere")
-not_made("resources with %", "100%%s%%n", location=b"file:///100%25s%25n")
 not_made("resources elsewhere", "file: URI", location=b"https://example.org/resources")
 with tempfile.TemporaryDirectory() as folder:
     scene = pathlib.Path(folder, "scene.json")
@@ -65,7 +62,17 @@ not_made("no callbacks and wrong GUID", callbacks=None, guid=b"{x}")
 without_logger = Callbacks(c.cast(None, type(Line(fmu).logger)), None, None, None, None)
 not_made("no logger", callbacks=c.byref(without_logger))
 
-# --- Instances that must be made all the same
+# --- Instances that must be made all the same: where the master does not say where its resources lie, or in a way of its own, the library looks
+# where it lies itself
+for location in (None, b"", b"file:///nowhere", b"file:///100%25s%25n", b"file:///Z|/fmu/resources", rb"\\?\Z:\fmu\resources"):
+    elsewhere = Line(fmu, location=location)
+    assert elsewhere.component, location
+    elsewhere.free()
+odd = Fmu(sys.argv[1], folder=tempfile.mkdtemp(prefix="a%20b "))
+plain = Line(odd, location=("file://" + str(odd.folder / "resources")).encode())
+assert plain.component, "an unencoded path that holds %20"
+plain.free()
+shutil.rmtree(odd.folder, ignore_errors=True)
 for location in (
     fmu.location,
     fmu.location.replace("file:///", "file:/"),

@@ -1,0 +1,194 @@
+//! The clock of an instance and its step: from inputs to a path, over the step, and what changes with the inputs.
+
+use super::{Instance, Route, is_finite};
+use crate::error::Error;
+use crate::fmi::inputs::Inputs;
+use crate::fmi::phase::{Call, Phase, StepStatus};
+use crate::fmi::refusal::Refusal;
+use crate::fmi::snapshot::{End, Moment};
+use crate::fmi::variables::{Kind, Meaning};
+use crate::solve::simulation::Outputs;
+
+/// Longest communication step [s]; more is a mistake of units or an uninitialised number.
+const LONGEST_STEP: f64 = 1.0e6;
+/// Shortest communication step [s]; less drowns in rounding wherever the solver divides by its square.
+const SHORTEST_STEP: f64 = 1.0e-9;
+/// Two times are the same if they differ by less than this part of a step: a clock in single precision or in nanoseconds is the master's to have.
+const SAME_STEP: f64 = 1.0e-3;
+/// Or of their size, as far as single precision goes; never more than `MOST_STEP` of a step.
+const SAME_TIME: f64 = 1.2e-7;
+/// A clock that is off by more than this part of a step means another time.
+const MOST_STEP: f64 = 0.1;
+
+impl Instance {
+    /// Advances from the master's communication point over its step.
+    pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Refusal> {
+        self.check(Call::DoStep)?;
+        let until = self.end_of_step(time, step)?;
+        self.plan(until)?;
+        match self.advance(until) {
+            Ok(()) => {
+                self.arrive(until)?;
+                self.moment.last_step_size = step;
+                self.moment.ends.iter_mut().for_each(|end| end.inputs.derivatives = Inputs::default().derivatives);
+                self.moment.step_status = StepStatus::Done;
+                Ok(())
+            }
+            Err(error) => Err(self.step_in_part(until, error)),
+        }
+    }
+
+    /// Advances all lines or, where one fails, none.
+    fn advance(&mut self, until: f64) -> Result<(), Error> {
+        let lines = self.built.as_mut().map_or(&mut [][..], |built| &mut built.lines);
+        for index in 0..lines.len() {
+            if let Err(error) = lines[index].advance(until) {
+                lines[..index].iter_mut().for_each(|line| line.simulation.undo());
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks the master's step against our clock; the end it means.
+    fn end_of_step(&self, time: f64, step: f64) -> Result<f64, Refusal> {
+        let refuse = |allowed| Err(Refusal::StepSize { time, step, allowed });
+        if !(step >= SHORTEST_STEP) {
+            return refuse("it must be positive, a nanosecond or more");
+        }
+        if !(step <= LONGEST_STEP) {
+            return refuse("a million seconds is the limit");
+        }
+        let clock = self.moment.clock;
+        let tolerance = same(time, step).max(4.0 * f64::EPSILON * clock.abs());
+        if !((time - clock).abs() <= tolerance) {
+            return Err(Refusal::CommunicationPoint { given: time, clock });
+        }
+        let until = time + step;
+        if !(until > clock && until > time) {
+            return refuse("it is too short to be told from the present time");
+        }
+        match self.moment.experiment.stop {
+            Some(stop) if until > stop + same(stop, step) => Err(Refusal::PastStop { time, step, stop }),
+            _ => Ok(until),
+        }
+    }
+
+    /// Decides how the fairleads go to a time.
+    fn plan(&mut self, until: f64) -> Result<(), Refusal> {
+        let Moment { clock, ends, .. } = &self.moment;
+        let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
+        for (line, End { inputs, path, .. }) in built.lines.iter_mut().zip(ends) {
+            let plan = path.plan(built.interpolation, *clock, until - clock, inputs);
+            let segment = path.segment(&plan, inputs);
+            line.route = Some(Route { plan, segment });
+        }
+        Ok(())
+    }
+
+    /// Takes over what the lines are after reaching a time.
+    fn arrive(&mut self, time: f64) -> Result<(), Refusal> {
+        let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
+        for (index, (line, end)) in built.lines.iter_mut().zip(&mut self.moment.ends).enumerate() {
+            end.outputs = line.simulation.observe();
+            if !is_finite(&end.outputs) {
+                self.moment.phase = Phase::Error;
+                self.moment.step_status = StepStatus::Failed;
+                return Err(Refusal::NotANumber { line: self.interface.prefix(index), until: time });
+            }
+            end.last = line.simulation.last_step();
+            if let Some(Route { plan, segment }) = &line.route {
+                end.path.advance(plan, &end.inputs, segment, time);
+            }
+            line.linearised = None;
+        }
+        self.moment.clock = time;
+        Ok(())
+    }
+
+    /// After a failure: goes as far as the solver came, or half of it, so that the master learns how far that is.
+    fn step_in_part(&mut self, until: f64, mut error: Error) -> Refusal {
+        let stuck_at = match &error {
+            Error::Step(stuck) => stuck.time.min(until),
+            _ => self.moment.clock,
+        };
+        for part in [0.9, 0.5] {
+            let reached = self.moment.clock + part * (stuck_at - self.moment.clock);
+            let worth_it = reached - self.moment.clock > 1e-3 * (until - self.moment.clock);
+            if worth_it && self.advance(reached).is_ok() {
+                if let Err(refusal) = self.arrive(reached) {
+                    return refusal;
+                }
+                self.moment.phase = Phase::StepFailed;
+                self.moment.step_status = StepStatus::Discarded;
+                if let Error::Step(stuck) = &mut error {
+                    stuck.last_good_time = reached;
+                }
+                return Refusal::Discarded { until, reached, cause: error.to_string() };
+            }
+        }
+        self.moment.phase = Phase::Error;
+        self.moment.step_status = StepStatus::Failed;
+        Refusal::Solver(error)
+    }
+
+    /// Change of outputs at the end of a step as long as the last one, along a direction of the inputs at its start.
+    pub fn directional_derivative(&mut self, unknowns: &[u32], knowns: &[u32], seeds: &[f64]) -> Result<Vec<f64>, Refusal> {
+        self.check(Call::DirectionalDerivative)?;
+        let mut outputs = Vec::with_capacity(unknowns.len());
+        for reference in unknowns {
+            let variable = self.variable(*reference, Kind::Real)?;
+            let Meaning::Output(output) = variable.meaning else {
+                let (role, allowed) = ("an unknown", "unknowns are the Real outputs");
+                return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
+            };
+            outputs.push((variable.line, output));
+        }
+        let mut directions = vec![[[0.0; 3]; 2]; self.moment.ends.len()];
+        for (reference, seed) in knowns.iter().zip(seeds) {
+            let variable = self.variable(*reference, Kind::Real)?;
+            let Meaning::Input(input) = variable.meaning else {
+                let (role, allowed) = ("a known", "knowns are position and velocity of the fairlead");
+                return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
+            };
+            if !seed.is_finite() {
+                return Err(Refusal::Derivative { name: variable.name.clone(), order: 0, value: *seed });
+            }
+            let (order, axis) = input.component();
+            directions[variable.line][order][axis] += seed;
+        }
+        if self.moment.phase == Phase::Initialization {
+            self.settle()?;
+        }
+        let until = self.moment.clock + self.moment.last_step_size;
+        self.plan(until)?;
+        let mut changes = vec![None; directions.len()];
+        for (line, _) in &outputs {
+            if changes[*line].is_none() && directions[*line] != [[0.0; 3]; 2] {
+                changes[*line] = Some(self.change(*line, until, directions[*line])?);
+            }
+        }
+        Ok(outputs.iter().map(|(line, output)| changes[*line].as_ref().map_or(0.0, |change| output.of(change))).collect())
+    }
+
+    /// Change of a line's outputs at a time along a direction of its inputs now. The steps there are linearised once and kept until
+    /// the inputs change or a step is done.
+    fn change(&mut self, line: usize, until: f64, direction: [[f64; 3]; 2]) -> Result<Outputs, Refusal> {
+        let End { path, inputs, .. } = &self.moment.ends[line];
+        let line = self.built.as_mut().and_then(|built| built.lines.get_mut(line)).ok_or(Refusal::UnknownState)?;
+        let Some(Route { plan, segment }) = &line.route else { return Err(Refusal::UnknownState) };
+        let kept = line.linearised.take().filter(|(end, along, _)| *end == until && along == segment);
+        let kept = match kept {
+            Some(kept) => kept,
+            None => (until, segment.clone(), line.simulation.linearise(until, &segment.path()).map_err(Refusal::Solver)?),
+        };
+        let variation = path.variation(plan, inputs, direction).path();
+        let (_, _, steps) = line.linearised.insert(kept);
+        line.simulation.derivative(steps, &variation).map_err(Refusal::Solver)
+    }
+}
+
+/// By how much times may differ and be the same [s].
+fn same(time: f64, step: f64) -> f64 {
+    (SAME_STEP * step).max((SAME_TIME * time.abs()).min(MOST_STEP * step))
+}
