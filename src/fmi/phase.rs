@@ -46,7 +46,7 @@ pub fn allowed(call: Call) -> &'static [Phase] {
         Call::Get => &[Instantiated, Initialization, StepComplete, StepFailed, Terminated, Error],
         Call::Set => &[Instantiated, Initialization, StepComplete],
         Call::GetState => &[Instantiated, Initialization, StepComplete, StepFailed, Terminated],
-        Call::DirectionalDerivative => &[Initialization, StepComplete],
+        Call::DirectionalDerivative => &[Initialization, StepComplete, StepFailed, Terminated],
         Call::SetInputDerivatives => &[Instantiated, Initialization, StepComplete],
         Call::GetOutputDerivatives => &[StepComplete, StepFailed, Terminated],
         Call::DoStep => &[StepComplete],

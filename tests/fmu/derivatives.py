@@ -95,3 +95,42 @@ after = line.get_real(*names)[1]
 for name, rate, a, b in zip(names, rates, before, after):
     change = (b - a) / 0.01
     assert abs(rate - change) < 0.1 * abs(change) + 100.0, f"d {name} / dt: {rate}, by difference {change}"
+
+# In initialization mode the derivative is that of the equilibrium: against differences of the outputs there (2 cm: both are good to 1e-3), zero by
+# velocity; and a vessel of given static loads finds its place on two lines by Newton's method in three iterations.
+line = Line(fmu)
+assert line.setup() == OK and line.call("fmi2EnterInitializationMode") == OK
+for axis in "xyz":
+    name = f"fairlead.position.{axis}"
+    exact = directional(line, name)
+    before = line.outputs()
+    ends = []
+    for change in (0.01, -0.01):
+        assert line.set_real({name: change}) == OK
+        ends.append(line.outputs())
+    assert line.set_real({name: 0.0}) == OK and line.outputs() == before
+    for output, one, two, found in zip(fmu.outputs, *ends, exact):
+        expected = (one - two) / 0.02
+        assert abs(found - expected) < 2e-3 * abs(expected) + 30.0 or output in ("azimuth", "work"), f"d {output} / d {axis}: {found}, {expected}"
+    assert directional(line, f"fairlead.velocity.{axis}") == [0.0] * len(fmu.outputs)
+assert line.call("fmi2ExitInitializationMode") == OK and line.step(surge) == OK
+assert abs(directional(line, "fairlead.position.x")[fmu.outputs.index("force.x")]) > 1e6, "between steps it is that of a step"
+assert line.call("fmi2Terminate") == OK
+directional(line, "fairlead.position.x")
+
+bow, stern = Line(fmu), Line(fmu)
+assert stern.set_real({"anchor.position.x": -1183.970}) == OK
+for end in (bow, stern):
+    assert end.setup() == OK and end.call("fmi2EnterInitializationMode") == OK
+load, place = 3.0e5, 0.0
+for iteration in range(4):
+    force = stiffness = 0.0
+    for end in (bow, stern):
+        assert end.set_real({"fairlead.position.x": place}) == OK
+        force += end.get_real("force.x")[1][0]
+        stiffness += directional(end, "fairlead.position.x")[fmu.outputs.index("force.x")]
+    print(f"iteration {iteration}: {place:.4f} m, {force + load:.1f} N out of balance")
+    if abs(force + load) < 1e-3 * load:
+        break
+    place -= (force + load) / stiffness
+assert iteration <= 3 and abs(force + load) < 1e-3 * load and place > 0.5

@@ -6,8 +6,9 @@ use crate::fmi::inputs::Inputs;
 use crate::fmi::phase::{Call, Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::snapshot::{End, Moment};
-use crate::fmi::variables::{Kind, Meaning};
+use crate::fmi::variables::{Kind, Meaning, Output};
 use crate::solve::simulation::Outputs;
+use nalgebra::Vector3;
 
 /// Longest communication step [s]; more is a mistake of units or an uninitialised number.
 const LONGEST_STEP: f64 = 1.0e6;
@@ -132,7 +133,8 @@ impl Instance {
         Refusal::Solver(error)
     }
 
-    /// Change of outputs at the end of a step as long as the last one, along a direction of the inputs at its start.
+    /// Change of outputs at the end of a step as long as the last one, along a direction of the inputs at its start; in initialization mode, of the
+    /// equilibrium.
     pub fn directional_derivative(&mut self, unknowns: &[u32], knowns: &[u32], seeds: &[f64]) -> Result<Vec<f64>, Refusal> {
         self.check(Call::DirectionalDerivative)?;
         let mut outputs = Vec::with_capacity(unknowns.len());
@@ -159,6 +161,7 @@ impl Instance {
         }
         if self.moment.phase == Phase::Initialization {
             self.settle()?;
+            return self.static_directions(&outputs, &directions);
         }
         let until = self.moment.clock + self.moment.last_step_size;
         self.plan(until)?;
@@ -169,6 +172,20 @@ impl Instance {
             }
         }
         Ok(outputs.iter().map(|(line, output)| changes[*line].as_ref().map_or(0.0, |change| output.of(change))).collect())
+    }
+
+    /// Changes of outputs in equilibrium along directions of the positions; velocities change nothing there.
+    fn static_directions(&mut self, outputs: &[(usize, Output)], directions: &[[[f64; 3]; 2]]) -> Result<Vec<f64>, Refusal> {
+        let mut changes: Vec<Option<Outputs>> = vec![None; directions.len()];
+        for (index, _) in outputs {
+            let direction = Vector3::from(directions[*index][0]);
+            if changes[*index].is_none() && direction != Vector3::zeros() {
+                let line = self.built.as_mut().and_then(|built| built.lines.get_mut(*index)).ok_or(Refusal::UnknownState)?;
+                let change = line.simulation.static_derivative(line.origin.into(), direction);
+                changes[*index] = Some(change.map_err(Refusal::Solver)?);
+            }
+        }
+        Ok(outputs.iter().map(|(index, output)| changes[*index].as_ref().map_or(0.0, |change| output.of(change))).collect())
     }
 
     /// Change of a line's outputs at a time along a direction of its inputs now. The steps there are linearised once and kept until

@@ -11,6 +11,7 @@ use crate::solve::outputs::{self, Outputs};
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
 use crate::solve::tangent::{self, LinearStage};
+use nalgebra::Vector3;
 
 /// Steps already taken and linearised: what `derivative` goes along, as often as wanted.
 pub struct Linearised {
@@ -24,6 +25,10 @@ pub struct Linearised {
     spatial: Option<Box<dyn Line>>,
     repeated: Option<Repeated>,
 }
+
+/// Displacement of the fairlead for a static derivative, as a share of the line's length: forces in balance to 1e-7 of the weight then make derivatives
+/// good to 1e-2 of weight per length, and bends of the answer do not show.
+const STATIC_SHARE: f64 = 1.0e-5;
 
 /// Where steps of `cable-1994` begin, until when and along which path: they are repeated, not linearised.
 type Repeated = (Snapshot, f64, Path);
@@ -59,6 +64,22 @@ impl Simulation {
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
         outcome.map(|steps| Linearised { spatial, ..steps })
+    }
+
+    /// Change of the outputs in equilibrium per displacement of the fairlead along `direction` [m], by central difference: what friction holds and what
+    /// lies on the bed follows as statics lets it. The simulation stays as it is.
+    pub fn static_derivative(&mut self, fairlead: Vector3<f64>, direction: Vector3<f64>) -> Result<Outputs, Error> {
+        let (now, time) = (self.snapshot(), self.moment.state.clock.now);
+        let (tally, fresh, length) = ((self.controller.tally, self.newton.effort), self.fresh, self.line.mesh().length);
+        let size = direction.norm();
+        let share = STATIC_SHARE * length / size.max(f64::MIN_POSITIVE);
+        let mut moved = |share: f64| self.settle(fairlead + direction * share, time).map(|_| self.outputs());
+        let ends = moved(share).and_then(|after| Ok((after, moved(-share)?)));
+        self.restore(&now);
+        (self.controller.tally, self.newton.effort) = tally;
+        self.fresh = fresh;
+        let (after, before) = ends?;
+        Ok(outputs::difference(&after, &before, 0.5 / share))
     }
 
     fn in_space(&self) -> Box<dyn Line> {
