@@ -140,6 +140,7 @@ pub mod fmi {
     pub mod segment;
     pub mod snapshot;
     pub mod variables;
+    pub mod warnings;
 }
 
 /// What a run leaves behind: tables and a page to look at.

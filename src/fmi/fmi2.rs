@@ -10,7 +10,7 @@
 //! reason to call these functions (`instance` is for it), and if it does, other panics still reach its hook.
 #![allow(non_snake_case)]
 
-use crate::fmi::instance::Instance;
+use crate::fmi::instance::{Instance, WARNING};
 use crate::fmi::own_place;
 use crate::fmi::phase::StepStatus;
 use crate::fmi::refusal::Refusal;
@@ -34,6 +34,7 @@ pub type Text = *const c_char;
 pub type Status = c_int;
 
 const OK: Status = 0;
+const WARNED: Status = 1;
 const DISCARD: Status = 2;
 const ERROR: Status = 3;
 
@@ -88,12 +89,17 @@ impl Log {
     /// The status of an outcome; a refusal goes to the log.
     fn status(&self, function: &str, outcome: Result<(), Refusal>) -> Status {
         let Err(refusal) = outcome else { return OK };
-        let (status, category) = match refusal {
+        let (status, category) = match &refusal {
             Refusal::Discarded { .. } | Refusal::NoStatus => (DISCARD, "logStatusDiscard"),
             Refusal::Panic(_) => (ERROR, "logStatusFatal"),
             _ => (ERROR, "logStatusError"),
         };
-        self.tell(status, category, &format!("{function}: {refusal}"));
+        let text = format!("{function}: {refusal}");
+        if matches!(refusal, Refusal::Discarded { .. }) {
+            // Masters show nothing of a Discard at their usual level.
+            self.tell(WARNED, WARNING, &text);
+        }
+        self.tell(status, category, &text);
         status
     }
 }
@@ -136,7 +142,8 @@ fn with(component: Handle, function: &str, body: impl FnOnce(&mut Instance) -> R
         instance.fail();
     }
     for message in instance.take_messages() {
-        log.tell(OK, message.category, &message.text);
+        let status = if message.category == WARNING { WARNED } else { OK };
+        log.tell(status, message.category, &message.text);
     }
     log.status(function, outcome)
 }

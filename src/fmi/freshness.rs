@@ -91,6 +91,11 @@ impl Pace {
         self.slower > 0
     }
 
+    /// Whether it is hardly known.
+    pub fn is_new(&self) -> bool {
+        self.intervals[2] == 0.0
+    }
+
     /// The line is stepped without new values.
     pub fn wait(&mut self) {
         self.slower = REMEMBERED as u32;

@@ -12,6 +12,7 @@ use crate::fmi::resource;
 use crate::fmi::segment::Segment;
 use crate::fmi::snapshot::{End, Moment, State};
 use crate::fmi::variables::{DEFAULT_STEP, Interface, Interpolation, Kind, LOG_CATEGORIES, Meaning, Variable};
+use crate::fmi::warnings::{self, Limits};
 use crate::scene::check;
 use crate::scene::types::{Motion, Scene};
 use crate::solve::motion::Path;
@@ -19,6 +20,9 @@ use crate::solve::simulation::{LastStep, Linearised, Outputs, Simulation};
 use crate::solve::snapshot::Snapshot;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+/// Log category of warnings, which are told always.
+pub const WARNING: &str = "logStatusWarning";
 
 /// Something to tell the master.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +49,7 @@ struct BuiltLine {
     origin: [f64; 3],
     route: Option<Route>,
     path: Path,
+    limits: Limits,
     linearised: Option<(f64, Segment, Linearised)>,
 }
 
@@ -107,6 +112,13 @@ impl Instance {
         self.moment.phase = Phase::Error;
         self.moment.step_status = StepStatus::Failed;
         self.built = None;
+    }
+
+    fn warn(&mut self, line: usize, text: Option<String>) {
+        if let Some(text) = text {
+            let text = format!("{}{text}", self.interface.prefix(line));
+            self.messages.push(Message { category: WARNING, text });
+        }
     }
 
     fn event(&mut self, text: String) {
@@ -177,6 +189,15 @@ impl Instance {
         self.check(Call::ExitInitialization)?;
         self.settle().inspect_err(|_| self.moment.phase = Phase::Error)?;
         self.moment.phase = Phase::StepComplete;
+        for index in 0..self.moment.ends.len() {
+            let Some(given) = self.interface.scene().lines.get(index).map(|line| line.fairlead) else { continue };
+            let length =
+                self.built.as_ref().and_then(|built| built.lines.get(index)).map_or(f64::INFINITY, |line| line.limits.length);
+            let end = &mut self.moment.ends[index];
+            let distance = end.origin.iter().zip(given).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            let warning = warnings::of_start(&mut end.told, distance, length);
+            self.warn(index, warning);
+        }
         Ok(())
     }
 
@@ -344,6 +365,7 @@ impl Instance {
                 outputs.tension,
                 outputs.anchor_tension
             ));
+            line.limits = Limits { tension: outputs.tension, grounded: outputs.grounded_length, ..line.limits };
             let end = &mut self.moment.ends[index];
             *end = End { outputs, path: InputPath::at_rest(end.origin), last: LastStep::default(), ..*end };
         }
@@ -373,7 +395,8 @@ impl Instance {
             let mut simulation = Simulation::new(&scene, index).map_err(|error| self.refusal(error))?;
             simulation.sum_up_work();
             let path = Path::Fixed(end.origin.into());
-            Ok(BuiltLine { simulation, origin: end.origin, route: None, path, linearised: None })
+            let limits = limits(&scene, index, &simulation);
+            Ok(BuiltLine { simulation, origin: end.origin, route: None, path, limits, linearised: None })
         };
         let lines = ends.iter().enumerate().map(build).collect::<Result<Vec<_>, Refusal>>()?;
         let (parameters, tolerance) = (parameters.clone(), experiment.tolerance);
@@ -488,6 +511,20 @@ impl Instance {
     pub fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Refusal> {
         let state = State::from_bytes(bytes, self.fingerprint, self.moment.parameters.len(), self.moment.ends.len())?;
         Ok(self.keep(state))
+    }
+}
+
+/// What a line bears, and what it carries now.
+fn limits(scene: &Scene, index: usize, simulation: &Simulation) -> Limits {
+    let sections = scene.lines.get(index).map_or(&[][..], |line| &line.sections);
+    let loads = sections.iter().filter_map(|section| scene.line_types.get(&section.line_type)?.breaking_load);
+    let length = sections.iter().map(|section| section.length).sum();
+    let outputs = simulation.outputs();
+    Limits {
+        breaking_load: loads.fold(f64::INFINITY, f64::min),
+        length,
+        tension: outputs.tension,
+        grounded: outputs.grounded_length,
     }
 }
 

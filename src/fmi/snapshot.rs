@@ -11,6 +11,7 @@ use crate::fmi::inputs::Inputs;
 use crate::fmi::phase::{Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource::fingerprint;
+use crate::fmi::warnings::Told;
 use crate::solve::simulation::{LastStep, Outputs};
 use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
@@ -50,6 +51,8 @@ pub struct End {
     pub inputs: Inputs,
     /// Where the fairlead's path stands.
     pub path: InputPath,
+    /// What the master has been warned of.
+    pub told: Told,
     /// Outputs of the last step.
     pub outputs: Outputs,
     /// How the solver did in the last step.
@@ -186,12 +189,13 @@ impl End {
             grounded_length: 0.0,
             work: 0.0,
         };
-        End { origin, inputs, path: InputPath::at_rest(origin), outputs, last: LastStep::default() }
+        End { origin, inputs, path: InputPath::at_rest(origin), told: Told::default(), outputs, last: LastStep::default() }
     }
 
     fn copy_from(&mut self, other: &End) {
-        let End { origin, inputs, path, outputs, last } = other;
+        let End { origin, inputs, path, told, outputs, last } = other;
         (self.origin, self.inputs, self.outputs, self.last) = (*origin, *inputs, *outputs, *last);
+        self.told = *told;
         self.path.copy_from(path);
     }
 
@@ -216,6 +220,7 @@ impl End {
         writer.count(self.path.pace.slower as usize);
         writer.flag(self.path.axes.is_some());
         self.path.axes.iter().flatten().for_each(|axis| write_axis(axis, writer));
+        writer.count(self.told.0 as usize);
         let o = &self.outputs;
         writer.real(o.time);
         [o.fairlead, o.force, o.anchor_force].into_iter().for_each(|vector| writer.triple(vector.into()));
@@ -243,6 +248,7 @@ impl End {
         let pace = Pace { last: reader.real()?, intervals: reader.reals()?, slower: reader.number()? };
         let axes = if reader.flag()? { Some([read_axis(reader)?, read_axis(reader)?, read_axis(reader)?]) } else { None };
         let path = InputPath { samples, position, velocity, velocity_given, axes, absorbed, stepped, pace };
+        let told = Told(reader.number()?);
         let time = reader.real()?;
         let mut vector = || reader.triple().map(Vector3::from);
         let (fairlead, force, anchor_force) = (vector()?, vector()?, vector()?);
@@ -260,7 +266,7 @@ impl End {
             work: reader.real()?,
         };
         let last = LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
-        Some(End { origin, inputs, path, outputs, last })
+        Some(End { origin, inputs, path, told, outputs, last })
     }
 }
 

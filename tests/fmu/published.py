@@ -84,10 +84,11 @@ CASES = [
     ("velocities held, 0.1 s", {"step": 0.1, "mode": 3}, published, 2e-2),
     # How the run is divided changes nothing beyond the tolerance of 0.1 %. Where the master tells the acceleration it is 0.02 to 0.04 %, without it
     # 0.03 to 0.10 %: the jump of the acceleration at the end of the motion's ramp is seen some steps late, and the axial waves that this
-    # starts last for a minute.
+    # starts last for a minute. `auto` is careful with high orders besides, for a vessel that may answer (docs/coupling.md): 0.07 to 0.15 %, with
+    # positions alone 0.3 %.
     *((f"exact derivatives, random steps {seed}", {"seed": seed, "derivatives": True}, standalone, 6e-4) for seed in range(4)),
-    *((f"position and velocity, random steps {seed}", {"seed": seed}, standalone, 1e-3) for seed in range(4)),
-    *((f"positions alone, random steps {seed}", {"seed": seed, "velocities": False}, standalone, 1e-3) for seed in range(2)),
+    *((f"position and velocity, random steps {seed}", {"seed": seed}, standalone, 2e-3) for seed in range(4)),
+    *((f"positions alone, random steps {seed}", {"seed": seed, "velocities": False}, standalone, 4e-3) for seed in range(2)),
 ]
 failures = []
 for what, options, truth, allowed in CASES:

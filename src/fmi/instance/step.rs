@@ -7,6 +7,7 @@ use crate::fmi::phase::{Call, Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::snapshot::{End, Moment};
 use crate::fmi::variables::{Kind, Meaning, Output};
+use crate::fmi::warnings;
 use crate::solve::simulation::Outputs;
 use nalgebra::Vector3;
 
@@ -20,6 +21,9 @@ const SAME_STEP: f64 = 1.0e-3;
 const SAME_TIME: f64 = 1.2e-7;
 /// A clock that is off by more than this part of a step means another time.
 const MOST_STEP: f64 = 0.1;
+
+/// Error of a step over the allowed one above which it is told of: what is a little more was accepted for being near.
+const UNRESOLVED: f64 = 10.0;
 
 impl Instance {
     /// Advances from the master's communication point over its step.
@@ -89,6 +93,7 @@ impl Instance {
 
     /// Takes over what the lines are after reaching a time.
     fn arrive(&mut self, time: f64) -> Result<(), Refusal> {
+        let (begin, mut told) = (self.moment.clock, Vec::new());
         let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
         for (index, (line, end)) in built.lines.iter_mut().zip(&mut self.moment.ends).enumerate() {
             end.outputs = line.simulation.observe();
@@ -99,11 +104,20 @@ impl Instance {
             }
             end.last = line.simulation.last_step();
             if let Some(Route { plan, segment }) = &line.route {
+                let missed = end.path.missed(plan, &end.inputs);
+                let jump = warnings::of_jump(&mut end.told, begin, time - begin, missed, line.limits.length);
                 end.path.advance(plan, &end.inputs, segment, time);
+                told.extend(
+                    jump.into_iter().chain(warnings::of_inputs(&mut end.told, time, &end.path)).map(|text| (index, text)),
+                );
             }
+            let unresolved = end.last.error_estimate > UNRESOLVED;
+            let of_step = warnings::of_step(&mut end.told, time, &end.outputs, &line.limits, unresolved);
+            told.extend(of_step.into_iter().map(|text| (index, text)));
             line.linearised = None;
         }
         self.moment.clock = time;
+        told.into_iter().for_each(|(index, text)| self.warn(index, Some(text)));
         Ok(())
     }
 

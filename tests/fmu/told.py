@@ -1,0 +1,78 @@
+"""The FMU warns: each thing once, with time, value and what to do, in `logStatusWarning`; what has been told is part of the state."""
+
+import math
+import sys
+
+from master import DISCARD, OK, WARNING, Fmu, Line, surge
+
+fmu = Fmu(sys.argv[1])
+
+
+def warnings(line: Line) -> list[str]:
+    return [text for status, category, text in line.log if category == "logStatusWarning" and status == WARNING]
+
+
+def told(line: Line, *words: str, times: int = 1):
+    found = [text for text in warnings(line) if all(word in text for word in words)]
+    assert len(found) == times, f"{words}: {line.log}"
+    if found:
+        print(found[0])
+
+
+def moved(motion, steps: int, velocities=True, step: float = 0.1, **parameters) -> Line:
+    line = Line(fmu)
+    if parameters:
+        assert line.set_real({name.replace("__", "."): value for name, value in parameters.items()}) == OK
+    line.start(motion)
+    for _ in range(steps):
+        if line.step(motion, step, velocities) != OK:
+            break
+    return line
+
+
+# A quiet run has nothing to tell.
+told(moved(surge, 600), "", times=0)
+
+# A fairlead that begins 70 m from where the scene has it.
+line = moved(lambda t: ([70.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0] * 3), 5)
+told(line, "70.0 m", "fairlead.position")
+
+# A jump that the line survives.
+told(moved(lambda t: ([0.0 if t < 1.0 else 8.0, 0.0, 0.0], [0.0] * 3, [0.0] * 3), 30), "t = 1.", "8.00 m")
+
+# A line that slackens: let go towards its anchor at 6 m/s for 8 s; and one that lifts its anchor: pulled out.
+closer = lambda t: ([min(0.3 * t * t, 60.0), 0.0, 0.0], [0.6 * t if t < math.sqrt(200.0) else 0.0, 0.0, 0.0], [0.0] * 3)
+told(moved(closer, 150), "slack", "kN at the fairlead")
+farther = lambda t: ([-min(t, 32.0), 0.0, 0.0], [-1.0 if t < 32.0 else 0.0, 0.0, 0.0], [0.0] * 3)
+told(moved(farther, 400), "lifts its anchor", "of it lay in equilibrium")
+
+# Velocities of slow motion alone beside the whole position; told once, and the same after going back.
+slow = lambda t: ([2.0 * math.sin(0.05 * t) + math.sin(0.8 * t), 0, 0], [0.1 * math.cos(0.05 * t), 0, 0], [0.0] * 3)
+line = moved(slow, 300)
+told(line, "velocities", "axis x")
+status, state = line.get_state()
+assert status == OK
+before, time = len(warnings(line)), line.time
+assert line.step(slow) == OK and line.set_state(state) == OK
+line.time = time
+assert line.step(slow) == OK
+assert len(warnings(line)) == before
+
+# And not believed: within the error of positions alone, where believing them is 5 %.
+whole = lambda t: (slow(t)[0], [0.1 * math.cos(0.05 * t) + 0.8 * math.cos(0.8 * t), 0, 0], [0.0] * 3)
+ends = [[], [], []]
+for kept, motion, velocities in zip(ends, (whole, slow, whole), (True, True, False)):
+    line = Line(fmu).start(motion)
+    for number in range(800):
+        assert line.step(motion, 0.1, velocities) == OK
+        if number > 400:
+            kept.append(line.get_real("tension")[1][0])
+rms = lambda one, other: math.dist(one, other) / math.hypot(*one)
+print(f"velocities of slow motion: {rms(ends[0], ends[1]):.2%} rms, positions alone {rms(ends[0], ends[2]):.2%}")
+assert rms(ends[0], ends[1]) < 2.0 * rms(ends[0], ends[2]) + 2e-4
+
+# A discarded step gives its reason as a warning, too.
+line = moved(surge, 10)
+assert line.set_real({"fairlead.velocity.x": -1400.0}) == OK
+assert line.do_step(line.time, 3.0) == DISCARD, line.log
+told(line, "was done only up to")
