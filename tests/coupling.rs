@@ -273,7 +273,7 @@ fn reference(mass: f64) -> Played {
 const STEPS: [f64; 14] = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.45, 0.5, 0.55, 0.6, 0.8, 1.0, 1.5, 2.0];
 
 /// 20 000 t in steps as masters take them, ship and lines each from what the other was: at 0.1 s within 0.25 % rms, up to 0.5 s within 1 % and 5 % at
-/// most (0.6 s: 1.3 %), energy within 1 %; the error grows with the step (at 0.35 s it is 0.83 %, at 0.5 s 0.68 %). Without care for what the vessel answers, 0.4 to
+/// most (0.6 s: 1.3 %), energy within 1 %; the error grows with the step and with nothing else. Without care for what the vessel answers, 0.4 to
 /// 0.55 s swung with five times the step at 8 to 29 %.
 #[test]
 fn a_moored_ship_is_led_as_well_as_its_steps_allow() {
@@ -284,7 +284,7 @@ fn a_moored_ship_is_led_as_well_as_its_steps_allow() {
         let [rms, most, energy] = errors(&play(20.0e6, recipe), &exact).expect("a ship that stays");
         println!("{step} s: {rms:.2} % rms, {most:.1} % at most, energy {energy:+.1} %");
         assert!(rms < bar && most < 5.0 && energy.abs() < 1.0, "{step} s: {rms} % rms, {most} % at most, energy {energy} %");
-        assert!(rms > 0.8 * before, "{step} s: {rms} %, a shorter step {before} %");
+        assert!(rms > before, "{step} s: {rms} %, a shorter step {before} %");
         before = rms;
     }
 }
