@@ -102,6 +102,9 @@ pub struct PackArguments {
     /// Value to put into the scene before it is checked; repeatable
     #[arg(long = "set", value_name = "PLACE=VALUE")]
     pub sets: Vec<String>,
+    /// Names of variables without dots (stern_fairlead_position_x), for tools that make buses of them
+    #[arg(long)]
+    pub flat_names: bool,
 }
 
 /// `moorline convert`.

@@ -1,7 +1,7 @@
 //! `moorline pack`: a scene as an FMU. Needs no compiler: the libraries lie beside the program.
 
 use crate::cli::arguments::{PackArguments, Stop};
-use crate::fmi::pack::{self, Libraries};
+use crate::fmi::pack::{self, Libraries, Naming};
 use crate::scene::read;
 
 /// Name of the FMU's model where there is no scene file to take it from.
@@ -16,6 +16,7 @@ pub fn pack(arguments: &PackArguments) -> Result<(), Stop> {
         }
         None => (read::built_in(&arguments.sets)?, BUILT_IN.to_string()),
     };
-    pack::pack(&loaded.scene, &name, &Libraries::beside_program(), &arguments.output)?;
+    let naming = if arguments.flat_names { Naming::Flat } else { Naming::Structured };
+    pack::pack(&loaded.scene, &name, naming, &Libraries::beside_program(), &arguments.output)?;
     Ok(())
 }

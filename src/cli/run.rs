@@ -6,7 +6,7 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::pack::BUILT_IN;
 use crate::cli::progress::Progress;
 use crate::error::Error;
-use crate::fmi::pack::{self, Libraries};
+use crate::fmi::pack::{self, Libraries, Naming};
 use crate::report::cable_files::CableFiles;
 use crate::report::page;
 use crate::report::record::Record;
@@ -66,7 +66,7 @@ fn leave_fmu(loaded: &Loaded, directory: &Path) -> Result<String, Error> {
         return Ok("  no FMU: its library does not lie beside the program (`cargo build --release` puts it there)\n".to_owned());
     }
     let file = directory.join(BUILT_IN).with_extension("fmu");
-    pack::pack(&loaded.scene, BUILT_IN, &libraries, &file)?;
+    pack::pack(&loaded.scene, BUILT_IN, Naming::Structured, &libraries, &file)?;
     Ok(format!("  {}  this one goes into a co-simulation (FMI 2.0); its port for OSP lies beside it\n", file.display()))
 }
 

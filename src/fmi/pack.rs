@@ -64,11 +64,49 @@ impl Libraries {
     }
 }
 
+/// How the variables are named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Naming {
+    /// With dots, as in `stern.fairlead.position.x`: FMI's structured naming convention.
+    #[default]
+    Structured,
+    /// Letters, digits and underscores alone, as in `stern_fairlead_position_x`, for tools that make buses of dots.
+    Flat,
+}
+
+impl Naming {
+    /// A structured name by this convention.
+    fn of(self, name: &str) -> String {
+        match self {
+            Naming::Structured => name.to_owned(),
+            Naming::Flat => {
+                let parts = name.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|part| !part.is_empty());
+                parts.collect::<Vec<_>>().join("_")
+            }
+        }
+    }
+}
+
+/// Refuses names that become one when they are made ASCII, or flat.
+fn check_names(interface: &Interface, naming: Naming, file: &str) -> Result<(), Error> {
+    let mut names: Vec<String> = interface.variables().iter().map(|variable| naming.of(&variable.name)).collect();
+    names.sort_unstable();
+    match names.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => Ok(()),
+        Some(pair) => Err(Error::Value {
+            file: file.to_owned(),
+            place: "names of lines, line types and the like".to_owned(),
+            value: format!("two variables called {}", pair[0]),
+            allowed: "names must differ in ASCII letters and digits: FMI knows no others, and they are transliterated".to_owned(),
+        }),
+    }
+}
+
 /// Writes the FMU of a checked scene to `out`, and `NAME_OspModelDescription.xml` into the same folder; returns the path of the latter.
 ///
 /// `name` is the scene's: the FMU's modelName. Errors: a scene of too many lines, a fairlead that a constraint holds, no library, a file
 /// that cannot be written.
-pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Result<PathBuf, Error> {
+pub fn pack(scene: &Scene, name: &str, naming: Naming, libraries: &Libraries, out: &Path) -> Result<PathBuf, Error> {
     if !(1..=MOST_LINES).contains(&scene.lines.len()) {
         return Err(Error::Value {
             file: name.to_owned(),
@@ -96,11 +134,13 @@ pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Res
         return Err(Error::File { path: program.display().to_string(), reason });
     }
     let scene = self_contained(scene);
-    let description = render(&scene, name, &timestamp());
+    let interface = Interface::new(&scene);
+    check_names(&interface, naming, name)?;
+    let description = named(render(&scene, name, &timestamp()), naming);
     let mut files: Vec<(String, Vec<u8>)> = vec![
         ("modelDescription.xml".to_owned(), description.into_bytes()),
         ("model.png".to_owned(), PICTURE.to_vec()),
-        ("documentation/index.html".to_owned(), documentation(&Interface::new(&scene)).into_bytes()),
+        ("documentation/index.html".to_owned(), documentation(&interface, naming).into_bytes()),
         ("documentation/licenses/license.txt".to_owned(), LICENSE.as_bytes().to_vec()),
         (format!("resources/{SCENE_FILE}"), serde_json::to_vec_pretty(&scene).map_err(|error| failure(out, &error))?),
     ];
@@ -111,7 +151,7 @@ pub fn pack(scene: &Scene, name: &str, libraries: &Libraries, out: &Path) -> Res
     }
     write_archive(&files, out)?;
     let port = out.with_file_name(format!("{name}_OspModelDescription.xml"));
-    fs::write(&port, osp_description(&Interface::new(&scene))).map_err(|error| failure(&port, &error))?;
+    fs::write(&port, named(osp_description(&interface), naming)).map_err(|error| failure(&port, &error))?;
     Ok(port)
 }
 
@@ -172,6 +212,24 @@ pub fn render(scene: &Scene, name: &str, date: &str) -> String {
     text
 }
 
+/// The same description with its variables named by a convention.
+fn named(description: String, naming: Naming) -> String {
+    if naming == Naming::Structured {
+        return description;
+    }
+    let flat = |line: &str, name: &str| match attribute(line, name) {
+        Some(value) => with_attribute(line, name, &naming.of(&value.replace("&apos;", "'"))),
+        None => line.to_owned(),
+    };
+    let lines = description.lines().map(|line| match line.trim_start() {
+        start if start.starts_with("<ScalarVariable ") => flat(line, "name"),
+        start if start.starts_with("<Variable ") => flat(line, "ref"),
+        start if start.starts_with("variableNamingConvention=") => with_attribute(line, "variableNamingConvention", "flat"),
+        _ => line.to_owned(),
+    });
+    lines.map(|line| line + "\n").collect()
+}
+
 /// The element of a variable: that of modelDescription.xml with its name, value reference and start value, or, for a quantity of the
 /// scene, a new one.
 fn description_of(variable: &Variable) -> String {
@@ -199,7 +257,7 @@ fn description_of(variable: &Variable) -> String {
 const VARIABLES: &str = "<!-- variables -->";
 
 /// The page of the FMU, with all its variables.
-fn documentation(interface: &Interface) -> String {
+fn documentation(interface: &Interface, naming: Naming) -> String {
     let mut rows = String::from(
         "<table>\n<tr><th>name</th><th>reference</th><th>causality</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
     );
@@ -215,7 +273,7 @@ fn documentation(interface: &Interface) -> String {
         };
         rows.push_str(&format!(
             "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{unit}</td><td>{}</td><td>{}</td></tr>\n",
-            of("name"),
+            escaped(&naming.of(&variable.name)),
             variable.reference,
             of("causality"),
             of("start"),
@@ -372,7 +430,7 @@ mod tests {
         let references: Vec<u32> = text.lines().filter_map(|line| attribute(line, "valueReference")?.parse().ok()).collect();
         assert!(references.is_sorted_by(|a, b| a < b), "value references do not rise: {references:?}");
         let (first, second) = text.split_once("dependencies=\"1 2 3 4 5 6\"").unwrap();
-        assert!(first.contains("<Outputs>") && second.contains("dependencies=\"48 49 50 51 52 53\""));
+        assert!(first.contains("<Outputs>") && second.contains("dependencies=\"50 51 52 53 54 55\""));
         assert!(osp_description(&Interface::new(&scene)).contains("<Variable ref=\"'stern line'.force.x\"/>"));
     }
 
@@ -388,18 +446,41 @@ mod tests {
         assert_eq!(found.files.len(), 1);
     }
 
+    /// FMI's structured names are ASCII; what tools make buses of is left out of flat ones; names that meet are refused.
+    #[test]
+    fn names_are_what_every_tool_takes() {
+        let mut scene = built_in();
+        scene.lines.push(scene.lines[0].clone());
+        scene.lines[0].name = "R4 Ø84".to_owned();
+        scene.lines[1].name = "係留索".to_owned();
+        let text = render(&scene, "two", "2026-01-01T00:00:00Z");
+        let names: Vec<&str> =
+            text.lines().filter(|line| line.contains("<ScalarVariable")).filter_map(|line| attribute(line, "name")).collect();
+        assert!(names.iter().all(|name| name.is_ascii()) && names.contains(&"'R4 O84'.tension"), "{names:?}");
+        let flat = named(text, Naming::Flat);
+        assert!(flat.contains("name=\"R4_O84_fairlead_position_x\"") && flat.contains("variableNamingConvention=\"flat\""));
+        assert!(named(osp_description(&Interface::new(&scene)), Naming::Flat).contains("ref=\"R4_O84_force_x\""));
+        assert!(check_names(&Interface::new(&scene), Naming::Flat, "two").is_ok());
+        scene.lines[1].name = "R4 O84".to_owned();
+        let error = check_names(&Interface::new(&scene), Naming::Structured, "two").unwrap_err().to_string();
+        assert!(error.contains("R4 O84") && error.contains("ASCII"), "{error}");
+    }
+
     #[test]
     fn a_fairlead_that_inputs_cannot_move_is_refused() {
         let mut scene = built_in();
         let springs = serde_json::json!({"s": 0.0, "stiffness": [1.0e6, 1.0e6, 1.0e6]});
         scene.lines[0].constraints.push(serde_json::from_value(springs).unwrap());
-        let error = pack(&scene, "winch", &Libraries::default(), Path::new("winch.fmu")).unwrap_err().to_string();
+        let error =
+            pack(&scene, "winch", Naming::Structured, &Libraries::default(), Path::new("winch.fmu")).unwrap_err().to_string();
         assert!(error.contains("lines[0].constraints") && error.contains("pinned"), "{error}");
     }
 
     #[test]
     fn without_a_library_the_message_says_where_it_must_lie() {
-        let error = pack(&built_in(), "moorline", &Libraries::default(), Path::new("moorline.fmu")).unwrap_err().to_string();
+        let error = pack(&built_in(), "moorline", Naming::Structured, &Libraries::default(), Path::new("moorline.fmu"))
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("libmoorline.so") && error.contains("cargo build --release"), "{error}");
     }
 

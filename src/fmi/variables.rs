@@ -132,16 +132,25 @@ enum Field<'a> {
 }
 
 impl Parameter {
+    /// The parameter of which this is another name.
+    fn twin(self) -> Option<Parameter> {
+        match self {
+            Parameter::SolverSchemeIndex => Some(Parameter::SolverScheme),
+            Parameter::InputInterpolationIndex => Some(Parameter::InputInterpolation),
+            _ => None,
+        }
+    }
+
     /// The field of the settings that this parameter is, of line number `line` where each has its own.
     /// `None`: there is no such line.
     fn field(self, settings: &mut Settings, line: usize) -> Option<Field<'_>> {
         use Field::{Elements, Interpolation, Real};
         let Settings { scene, interpolation } = settings;
         Some(match self {
-            Parameter::SolverScheme => Field::Scheme(&mut scene.solver.scheme),
+            Parameter::SolverScheme | Parameter::SolverSchemeIndex => Field::Scheme(&mut scene.solver.scheme),
             Parameter::SolverTolerance => Real(&mut scene.solver.tolerance),
             Parameter::SolverMaxStep => Real(&mut scene.solver.max_step),
-            Parameter::InputInterpolation => Interpolation(interpolation),
+            Parameter::InputInterpolation | Parameter::InputInterpolationIndex => Interpolation(interpolation),
             Parameter::LineLength => Real(&mut section(scene, line)?.length),
             Parameter::LineElements => Elements(&mut section(scene, line)?.elements),
             Parameter::LineEa => Real(&mut line_type(scene, line)?.ea),
@@ -172,10 +181,10 @@ impl Parameter {
         let of_section = |key: &str| format!("lines[{line}].sections[0].{key}");
         let of_type = |key: &str| format!("line_types.{}.{key}", section.map_or("", |section| &section.line_type));
         match self {
-            Parameter::SolverScheme => "solver.scheme".to_owned(),
+            Parameter::SolverScheme | Parameter::SolverSchemeIndex => "solver.scheme".to_owned(),
             Parameter::SolverTolerance => "solver.tolerance".to_owned(),
             Parameter::SolverMaxStep => "solver.max_step".to_owned(),
-            Parameter::InputInterpolation => "input.interpolation".to_owned(),
+            Parameter::InputInterpolation | Parameter::InputInterpolationIndex => "input.interpolation".to_owned(),
             Parameter::LineLength => of_section("length"),
             Parameter::LineElements => of_section("elements"),
             Parameter::LineEa => of_type("ea"),
@@ -204,6 +213,8 @@ impl Parameter {
     fn belongs_to_line(self) -> bool {
         match self {
             Parameter::SolverScheme
+            | Parameter::SolverSchemeIndex
+            | Parameter::InputInterpolationIndex
             | Parameter::SolverTolerance
             | Parameter::SolverMaxStep
             | Parameter::InputInterpolation
@@ -390,8 +401,12 @@ impl Interface {
                 if let Some(field) = parameter.field(&mut self.settings, line) {
                     start = field.read();
                 }
-                slot = self.parameters;
-                self.parameters += 1;
+                // The same choice by another name is the same value.
+                let twin = parameter
+                    .twin()
+                    .and_then(|twin| self.variables.iter().find(|other| other.meaning == Meaning::Parameter(twin)));
+                slot = twin.map_or(self.parameters, |twin| twin.slot);
+                self.parameters += usize::from(twin.is_none());
             }
             Meaning::Input(input) => {
                 if let ((0, axis), Some(line)) = (input.component(), self.settings.scene.lines.get(line)) {
@@ -549,7 +564,12 @@ impl Parameter {
     fn belongs_to_single_section(self) -> bool {
         !matches!(
             self,
-            Parameter::SolverScheme | Parameter::SolverTolerance | Parameter::SolverMaxStep | Parameter::InputInterpolation
+            Parameter::SolverScheme
+                | Parameter::SolverSchemeIndex
+                | Parameter::SolverTolerance
+                | Parameter::SolverMaxStep
+                | Parameter::InputInterpolation
+                | Parameter::InputInterpolationIndex
         )
     }
 }
@@ -597,8 +617,10 @@ fn make_explicit(scene: &mut Scene) {
     }
 }
 
-/// A key of the scene as a part of a structured FMI name: as it is, or quoted where it is no identifier.
+/// A key of the scene as a part of a structured FMI name, which the standard wants in ASCII: as it is, transliterated (`Ø` is `O`), and quoted where it
+/// is no identifier.
 fn identifier(key: &str) -> String {
+    let key = &deunicode::deunicode(key);
     let plain = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && !key.starts_with(|c: char| c.is_ascii_digit());
     if plain && !key.is_empty() {
         return key.to_owned();

@@ -76,3 +76,11 @@ whole, halved = (
 )
 # Both statics are good to 1e-6; without gravity the 10 m would make 0.5 %.
 assert abs(halved / whole - 0.5) < 1e-5, (whole, halved)
+
+# The choices as Integers are the same values: what is set last counts.
+from master import OK, Fmu, Line  # noqa: E402
+
+line = Line(Fmu(path))
+assert line.set_integer({"solver.scheme_index": 2, "input.interpolation": 4}) == OK
+assert line.get_integer("solver.scheme", "solver.scheme_index", "input.interpolation_index")[1] == [2, 2, 4]
+assert line.set_integer({"solver.scheme": 3}) == OK and line.get_integer("solver.scheme_index")[1] == [3]
