@@ -124,6 +124,7 @@ pub mod solve {
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.
 pub mod fmi {
     pub mod experiment;
+    pub mod filter;
     pub mod fit;
     #[allow(unsafe_code)]
     pub mod fmi2;

@@ -4,7 +4,7 @@
 //! under `target/`.
 
 use moorline::algebra::sinusoid::Sinusoid;
-use moorline::fmi::pack::{Libraries, pack};
+use moorline::fmi::pack::{Libraries, Naming, pack};
 use moorline::scene::types::{Motion, Scene};
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::Simulation;
@@ -100,11 +100,12 @@ fn prepared() -> &'static Result<(PathBuf, PathBuf), String> {
         std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
         let fmu = folder.join("moorline.fmu");
         std::fs::write(folder.join("standalone.csv"), standalone()?).map_err(|error| error.to_string())?;
-        pack(&scene()?, "moorline", &Libraries::beside_program(), &fmu).map_err(|error| error.to_string())?;
+        pack(&scene()?, "moorline", Naming::Structured, &Libraries::beside_program(), &fmu).map_err(|error| error.to_string())?;
         let other = folder.join("two-sections.fmu");
-        pack(&two_sections()?, "two-sections", &Libraries::beside_program(), &other).map_err(|error| error.to_string())?;
+        pack(&two_sections()?, "two-sections", Naming::Structured, &Libraries::beside_program(), &other)
+            .map_err(|error| error.to_string())?;
         let lines = serde_json::from_str(include_str!("../examples/two-lines.json")).map_err(|error| error.to_string())?;
-        pack(&lines, "two-lines", &Libraries::beside_program(), &folder.join("two-lines.fmu"))
+        pack(&lines, "two-lines", Naming::Structured, &Libraries::beside_program(), &folder.join("two-lines.fmu"))
             .map_err(|error| error.to_string())?;
         Ok((python()?, fmu))
     })

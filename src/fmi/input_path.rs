@@ -158,6 +158,13 @@ pub struct Plan {
     lag: f64,
 }
 
+impl Plan {
+    /// Where the step begins [s].
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+}
+
 /// Indices of the samples that a polynomial goes through, newest first.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Nodes {

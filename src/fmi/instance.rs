@@ -4,6 +4,7 @@
 
 use crate::error::Error;
 use crate::fmi::experiment::Experiment;
+use crate::fmi::filter::Filter;
 use crate::fmi::input_path::{InputPath, Plan};
 use crate::fmi::inputs::Inputs;
 use crate::fmi::phase::{Call, Phase, StepStatus, allowed};
@@ -41,6 +42,8 @@ struct Built {
     parameters: Vec<f64>,
     tolerance: Option<f64>,
     interpolation: Interpolation,
+    /// Cut-off of the filter of the positions [Hz]; 0: none.
+    filter: f64,
 }
 
 /// One line, how it goes to the next communication point, and the last step that was differentiated.
@@ -58,6 +61,9 @@ struct BuiltLine {
 struct Route {
     plan: Plan,
     segment: Segment,
+    /// What it goes by: the inputs, or what the filter makes of them.
+    inputs: Inputs,
+    filter: Filter,
 }
 
 impl BuiltLine {
@@ -367,7 +373,13 @@ impl Instance {
             ));
             line.limits = Limits { tension: outputs.tension, grounded: outputs.grounded_length, ..line.limits };
             let end = &mut self.moment.ends[index];
-            *end = End { outputs, path: InputPath::at_rest(end.origin), last: LastStep::default(), ..*end };
+            *end = End {
+                outputs,
+                filter: Filter::at_rest(end.origin, start),
+                path: InputPath::at_rest(end.origin),
+                last: LastStep::default(),
+                ..*end
+            };
         }
         self.built = Some(built);
         self.moment.clock = start;
@@ -400,7 +412,7 @@ impl Instance {
         };
         let lines = ends.iter().enumerate().map(build).collect::<Result<Vec<_>, Refusal>>()?;
         let (parameters, tolerance) = (parameters.clone(), experiment.tolerance);
-        Ok(Built { lines, parameters, tolerance, interpolation: settings.interpolation })
+        Ok(Built { lines, parameters, tolerance, interpolation: settings.interpolation, filter: settings.filter })
     }
 
     /// An error of the layers below, with the parameter's name where it speaks of a place in the scene.

@@ -4,6 +4,7 @@
 //! checksum over all before it (16). Text of the instance's log and other handed-out states are not part of it.
 
 use crate::fmi::experiment::Experiment;
+use crate::fmi::filter::Filter;
 use crate::fmi::fit::{Fit, Point};
 use crate::fmi::freshness::{Age, Pace};
 use crate::fmi::input_path::{Axis, CAPACITY, InputPath, Sample};
@@ -51,6 +52,8 @@ pub struct End {
     pub inputs: Inputs,
     /// Where the fairlead's path stands.
     pub path: InputPath,
+    /// Where the filter of the positions stands.
+    pub filter: Filter,
     /// What the master has been warned of.
     pub told: Told,
     /// Outputs of the last step.
@@ -189,13 +192,21 @@ impl End {
             grounded_length: 0.0,
             work: 0.0,
         };
-        End { origin, inputs, path: InputPath::at_rest(origin), told: Told::default(), outputs, last: LastStep::default() }
+        End {
+            origin,
+            inputs,
+            filter: Filter::at_rest(origin, 0.0),
+            path: InputPath::at_rest(origin),
+            told: Told::default(),
+            outputs,
+            last: LastStep::default(),
+        }
     }
 
     fn copy_from(&mut self, other: &End) {
-        let End { origin, inputs, path, told, outputs, last } = other;
+        let End { origin, inputs, path, filter, told, outputs, last } = other;
         (self.origin, self.inputs, self.outputs, self.last) = (*origin, *inputs, *outputs, *last);
-        self.told = *told;
+        (self.told, self.filter) = (*told, *filter);
         self.path.copy_from(path);
     }
 
@@ -220,6 +231,8 @@ impl End {
         writer.count(self.path.pace.slower as usize);
         writer.flag(self.path.axes.is_some());
         self.path.axes.iter().flatten().for_each(|axis| write_axis(axis, writer));
+        writer.real(self.filter.time);
+        [self.filter.given, self.filter.position, self.filter.velocity].into_iter().for_each(|value| writer.triple(value));
         writer.count(self.told.0 as usize);
         let o = &self.outputs;
         writer.real(o.time);
@@ -248,6 +261,8 @@ impl End {
         let pace = Pace { last: reader.real()?, intervals: reader.reals()?, slower: reader.number()? };
         let axes = if reader.flag()? { Some([read_axis(reader)?, read_axis(reader)?, read_axis(reader)?]) } else { None };
         let path = InputPath { samples, position, velocity, velocity_given, axes, absorbed, stepped, pace };
+        let (since, given, position, velocity) = (reader.real()?, reader.triple()?, reader.triple()?, reader.triple()?);
+        let filter = Filter { time: since, given, position, velocity };
         let told = Told(reader.number()?);
         let time = reader.real()?;
         let mut vector = || reader.triple().map(Vector3::from);
@@ -266,7 +281,7 @@ impl End {
             work: reader.real()?,
         };
         let last = LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
-        Some(End { origin, inputs, path, told, outputs, last })
+        Some(End { origin, inputs, path, filter, told, outputs, last })
     }
 }
 

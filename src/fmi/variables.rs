@@ -121,6 +121,8 @@ pub struct Settings {
     pub scene: Scene,
     /// The interpolation.
     pub interpolation: Interpolation,
+    /// Cut-off of the filter of the positions [Hz]; 0: none.
+    pub filter: f64,
 }
 
 /// A place in the settings that a parameter reads and writes.
@@ -145,12 +147,13 @@ impl Parameter {
     /// `None`: there is no such line.
     fn field(self, settings: &mut Settings, line: usize) -> Option<Field<'_>> {
         use Field::{Elements, Interpolation, Real};
-        let Settings { scene, interpolation } = settings;
+        let Settings { scene, interpolation, filter } = settings;
         Some(match self {
             Parameter::SolverScheme | Parameter::SolverSchemeIndex => Field::Scheme(&mut scene.solver.scheme),
             Parameter::SolverTolerance => Real(&mut scene.solver.tolerance),
             Parameter::SolverMaxStep => Real(&mut scene.solver.max_step),
             Parameter::InputInterpolation | Parameter::InputInterpolationIndex => Interpolation(interpolation),
+            Parameter::InputFilter => Real(filter),
             Parameter::LineLength => Real(&mut section(scene, line)?.length),
             Parameter::LineElements => Elements(&mut section(scene, line)?.elements),
             Parameter::LineEa => Real(&mut line_type(scene, line)?.ea),
@@ -185,6 +188,7 @@ impl Parameter {
             Parameter::SolverTolerance => "solver.tolerance".to_owned(),
             Parameter::SolverMaxStep => "solver.max_step".to_owned(),
             Parameter::InputInterpolation | Parameter::InputInterpolationIndex => "input.interpolation".to_owned(),
+            Parameter::InputFilter => "input.filter".to_owned(),
             Parameter::LineLength => of_section("length"),
             Parameter::LineElements => of_section("elements"),
             Parameter::LineEa => of_type("ea"),
@@ -215,6 +219,7 @@ impl Parameter {
             Parameter::SolverScheme
             | Parameter::SolverSchemeIndex
             | Parameter::InputInterpolationIndex
+            | Parameter::InputFilter
             | Parameter::SolverTolerance
             | Parameter::SolverMaxStep
             | Parameter::InputInterpolation
@@ -374,7 +379,7 @@ impl Interface {
     /// its name in front.
     pub fn new(scene: &Scene) -> Interface {
         let scene_names = uses_scene_names(scene);
-        let mut settings = Settings { scene: scene.clone(), interpolation: Interpolation::default() };
+        let mut settings = Settings { scene: scene.clone(), interpolation: Interpolation::default(), filter: 0.0 };
         if !scene_names {
             make_explicit(&mut settings.scene);
         }
@@ -570,6 +575,7 @@ impl Parameter {
                 | Parameter::SolverMaxStep
                 | Parameter::InputInterpolation
                 | Parameter::InputInterpolationIndex
+                | Parameter::InputFilter
         )
     }
 }

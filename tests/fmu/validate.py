@@ -78,7 +78,7 @@ whole, halved = (
 assert abs(halved / whole - 0.5) < 1e-5, (whole, halved)
 
 # The choices as Integers are the same values: what is set last counts.
-from master import OK, Fmu, Line  # noqa: E402
+from master import OK, Fmu, Line
 
 line = Line(Fmu(path))
 assert line.set_integer({"solver.scheme_index": 2, "input.interpolation": 4}) == OK

@@ -83,10 +83,15 @@ impl Instance {
     fn plan(&mut self, until: f64) -> Result<(), Refusal> {
         let Moment { clock, ends, .. } = &self.moment;
         let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
-        for (line, End { inputs, path, .. }) in built.lines.iter_mut().zip(ends) {
-            let plan = path.plan(built.interpolation, *clock, until - clock, inputs);
-            let segment = path.segment(&plan, inputs);
-            line.route = Some(Route { plan, segment });
+        for (line, End { inputs, path, filter, .. }) in built.lines.iter_mut().zip(ends) {
+            let (mut inputs, mut filter) = (*inputs, *filter);
+            if built.filter > 0.0 {
+                filter = filter.after(built.filter, *clock, &inputs);
+                inputs = filter.inputs();
+            }
+            let plan = path.plan(built.interpolation, *clock, until - clock, &inputs);
+            let segment = path.segment(&plan, &inputs);
+            line.route = Some(Route { plan, segment, inputs, filter });
         }
         Ok(())
     }
@@ -103,10 +108,11 @@ impl Instance {
                 return Err(Refusal::NotANumber { line: self.interface.prefix(index), until: time });
             }
             end.last = line.simulation.last_step();
-            if let Some(Route { plan, segment }) = &line.route {
-                let missed = end.path.missed(plan, &end.inputs);
+            if let Some(Route { plan, segment, inputs, filter }) = &line.route {
+                let missed = end.path.missed(plan, inputs);
                 let jump = warnings::of_jump(&mut end.told, begin, time - begin, missed, line.limits.length);
-                end.path.advance(plan, &end.inputs, segment, time);
+                end.path.advance(plan, inputs, segment, time);
+                end.filter = *filter;
                 told.extend(
                     jump.into_iter().chain(warnings::of_inputs(&mut end.told, time, &end.path)).map(|text| (index, text)),
                 );
@@ -205,9 +211,22 @@ impl Instance {
     /// Change of a line's outputs at a time along a direction of its inputs now. The steps there are linearised once and kept until
     /// the inputs change or a step is done.
     fn change(&mut self, line: usize, until: f64, direction: [[f64; 3]; 2]) -> Result<Outputs, Refusal> {
-        let End { path, inputs, .. } = &self.moment.ends[line];
-        let line = self.built.as_mut().and_then(|built| built.lines.get_mut(line)).ok_or(Refusal::UnknownState)?;
-        let Some(Route { plan, segment }) = &line.route else { return Err(Refusal::UnknownState) };
+        let End { path, filter: before, inputs: given, .. } = &self.moment.ends[line];
+        let built = self.built.as_mut().ok_or(Refusal::UnknownState)?;
+        let cutoff = built.filter;
+        let line = built.lines.get_mut(line).ok_or(Refusal::UnknownState)?;
+        let Some(Route { plan, segment, inputs, filter }) = &line.route else { return Err(Refusal::UnknownState) };
+        let direction = if cutoff > 0.0 {
+            // The filter is linear.
+            let values = [std::array::from_fn(|axis| given.values[0][axis] + direction[0][axis]), [0.0; 3]];
+            let moved = before.after(cutoff, plan.time(), &Inputs { values, ..Inputs::default() });
+            [
+                std::array::from_fn(|axis| moved.position[axis] - filter.position[axis]),
+                std::array::from_fn(|axis| moved.velocity[axis] - filter.velocity[axis]),
+            ]
+        } else {
+            direction
+        };
         let kept = line.linearised.take().filter(|(end, along, _)| *end == until && along == segment);
         let kept = match kept {
             Some(kept) => kept,
