@@ -196,7 +196,8 @@ fn fairlead_speed(motion: &Motion) -> f64 {
 /// Whether a flexible line is slack: next to nothing is at its fairlead, as its catenary there says. Its length goes into bights.
 pub fn is_slack(scene: &Scene, line: &Line) -> bool {
     let (whole, anchor, fairlead) = (whole(scene, line), Vector3::from(line.anchor), Vector3::from(line.fairlead));
-    if whole.bends() || !line.is_pinned(0.0) || !line.is_pinned(line.length()) {
+    let bare = line.attachments.is_empty() && line.constraints.is_empty();
+    if whole.bends() || !bare {
         return false;
     }
     let frame = Frame::new(&whole, &bounds(scene), &anchor, &fairlead);

@@ -130,6 +130,8 @@ const MESH_SHARE: f64 = 0.3;
 /// Where bights are tighter than elements, the weight of a part of one is at their ends or is not: the same as a share of the
 /// weight that hangs.
 const BIGHT_SHARE: f64 = 8.0;
+/// An end that carries less than this share of what hangs is one of a bight.
+const SLACK_END: f64 = 0.2;
 /// No mesh is refined beyond this many elements.
 const MOST_ELEMENTS: usize = 300;
 /// How far `cable-1994` may leave the path of its fairlead, as a share of the line's length: it prescribes the velocity and adds it up.
@@ -183,7 +185,9 @@ impl Simulation {
         // Stiff elements in a tight bend lock a little: bights may need many.
         let (share, rounds) = if simulation.pushes() { (MESH_SHARE / 3.0, 7) } else { (MESH_SHARE, 3) };
         let allowed = |simulation: &Simulation, tension: f64| {
-            let of_bights = if simulation.line.mesh().folds { BIGHT_SHARE * simulation.range_of_tension() } else { 0.0 };
+            let range = if simulation.line.mesh().folds { simulation.range_of_tension() } else { 0.0 };
+            // A flow may pull at what its weight alone would leave slack.
+            let of_bights = if tension < SLACK_END * range { BIGHT_SHARE * range } else { 0.0 };
             scene.solver.tolerance * of_bights.max(share * simulation.scale.tension(tension))
         };
         for _ in 0..rounds {
