@@ -29,18 +29,24 @@ pub mod algebra {
     pub mod dimension;
     pub mod lanes;
     pub mod polynomial;
+    pub mod rotation;
     pub mod shape;
     pub mod sinusoid;
+    pub mod spline;
     pub mod tensor;
 }
 
 /// What the user said: plain data, read and checked. No nodes, no steps.
 pub mod scene {
+    pub mod bodies;
     pub mod cable;
     pub mod check;
     pub mod motion_file;
+    pub mod placing;
+    pub mod pose_file;
     pub mod read;
     pub mod state;
+    pub mod text;
     pub mod types;
 }
 
@@ -104,6 +110,7 @@ pub mod solve {
     pub mod newton;
     pub mod outputs;
     pub mod plane;
+    pub mod pose;
     pub mod relaxation;
     pub mod rest;
     pub mod rounding;

@@ -18,7 +18,7 @@ use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
 
 const MAGIC: &[u8; 8] = b"MOORLINE";
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 const HEADER: usize = 8 + 4 + 16 + 8;
 const CHECKSUM: usize = 16;
 
@@ -184,6 +184,7 @@ impl End {
             fairlead: zero,
             force: zero,
             tension: 0.0,
+            anchor: zero,
             anchor_force: zero,
             anchor_tension: 0.0,
             tension_max: 0.0,
@@ -236,7 +237,7 @@ impl End {
         writer.count(self.told.0 as usize);
         let o = &self.outputs;
         writer.real(o.time);
-        [o.fairlead, o.force, o.anchor_force].into_iter().for_each(|vector| writer.triple(vector.into()));
+        [o.fairlead, o.force, o.anchor, o.anchor_force].into_iter().for_each(|vector| writer.triple(vector.into()));
         let scalars = [o.tension, o.anchor_tension, o.tension_max, o.declination, o.azimuth, o.grounded_length, o.work];
         scalars.into_iter().for_each(|value| writer.real(value));
         writer.count(self.last.substeps);
@@ -266,11 +267,12 @@ impl End {
         let told = Told(reader.number()?);
         let time = reader.real()?;
         let mut vector = || reader.triple().map(Vector3::from);
-        let (fairlead, force, anchor_force) = (vector()?, vector()?, vector()?);
+        let (fairlead, force, anchor, anchor_force) = (vector()?, vector()?, vector()?, vector()?);
         let outputs = Outputs {
             time,
             fairlead,
             force,
+            anchor,
             anchor_force,
             tension: reader.real()?,
             anchor_tension: reader.real()?,

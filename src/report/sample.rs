@@ -10,6 +10,7 @@ pub fn outputs(time: f64, tension: f64) -> Outputs {
         fairlead: Vector3::zeros(),
         force: Vector3::x() * tension,
         tension,
+        anchor: Vector3::zeros(),
         anchor_force: Vector3::zeros(),
         anchor_tension: 0.0,
         tension_max: tension,

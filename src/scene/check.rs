@@ -4,6 +4,7 @@
 //! Numbers beyond 1e15 in size, and positive ones below 1e-12, are taken for slips: products of them would leave the range of f64.
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
+mod bodies;
 mod cable_1994;
 
 use crate::error::{Error, Limit, Reach, among};
@@ -27,7 +28,7 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 30] = [
+const RULES: [Rule; 35] = [
     gravity,
     water_density,
     depth,
@@ -50,6 +51,11 @@ const RULES: [Rule; 30] = [
     elements,
     attachments,
     constraints,
+    bodies::names,
+    bodies::bodies,
+    bodies::points,
+    bodies::ends,
+    bodies::places_above_bed,
     ends_above_bed,
     motion_numbers,
     motion_above_bed,
@@ -471,7 +477,7 @@ fn motion_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
     let level = environment.bed_height(0.0, 0.0);
     let rise = |offset: &Triple| offset[2] - (environment.bed_height(offset[0], offset[1]) - level);
     let dip = rise(sine).hypot(rise(cosine));
-    for (index, line) in scene.lines.iter().enumerate() {
+    for (index, line) in scene.lines.iter().enumerate().filter(|(_, line)| line.fairlead_on.is_none()) {
         let [x, y, z] = line.fairlead;
         if environment.is_below_bed([x, y, z - dip]) {
             let clearance = number(z - environment.bed_height(x, y));
@@ -488,8 +494,9 @@ fn motion_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
 }
 
 fn file_moves_one_line(scene: &Scene, file: &str) -> Result<(), Error> {
-    if matches!(scene.motion, Motion::File { .. }) && scene.lines.len() > 1 {
-        let allowed = format!("its absolute positions belong to one fairlead, and the scene has {} lines", scene.lines.len());
+    let moved = scene.lines.iter().filter(|line| line.fairlead_on.is_none()).count();
+    if matches!(scene.motion, Motion::File { .. }) && moved > 1 {
+        let allowed = format!("its absolute positions belong to one fairlead, and the scene has {moved} lines");
         return refuse(file, "motion.kind", "\"file\"", allowed);
     }
     Ok(())
@@ -523,7 +530,11 @@ fn solver(scene: &Scene, file: &str) -> Result<(), Error> {
 /// A line may be shorter than the distance of its ends: it stretches, but neither to twice its length nor beyond a breaking load. An
 /// end that a constraint holds comes nearer by itself.
 fn reach(scene: &Scene, file: &str) -> Result<(), Error> {
-    for (index, line) in scene.lines.iter().enumerate().filter(|(_, line)| line.is_pinned(0.0) && line.is_pinned(line.length())) {
+    let held = |line: &Line| {
+        let free = scene.is_on_free(line.fairlead_on.as_ref()) || scene.is_on_free(line.anchor_on.as_ref());
+        line.is_pinned(0.0) && line.is_pinned(line.length()) && !free
+    };
+    for (index, line) in scene.lines.iter().enumerate().filter(|(_, line)| held(line)) {
         let (length, distance) = (line.length(), distance(line.fairlead, line.anchor));
         let stretch = distance / length - 1.0;
         let limit = weakest(scene, line)
@@ -605,7 +616,7 @@ fn without_effect(scene: &Scene) -> Vec<String> {
                 warnings.push(format!("{place} sits on a pinned end: it loads what holds the line, and nothing else changes"));
             }
         }
-        if scene.motion != Motion::Fixed && !line.is_pinned(0.0) {
+        if scene.motion != Motion::Fixed && !line.is_pinned(0.0) && line.fairlead_on.is_none() {
             let line = format!("lines[{index}]");
             warnings.push(format!(
                 "motion does not move the fairlead of {line}, which a constraint holds; give that constraint a motion of its own"

@@ -5,15 +5,15 @@ mod place;
 mod setting;
 
 use crate::error::{Error, Problem};
+use crate::scene::bodies::{BodyMotion, PointMotion};
 use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
 use crate::scene::state::LineState;
 use crate::scene::types::{Motion, Scene, Scheme};
-use crate::scene::{check, motion_file};
+use crate::scene::text::{decode, read_bytes};
+use crate::scene::{check, motion_file, pose_file};
 use place::{Place, Step, shortened};
 use serde_json::Value;
 use setting::Applied;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -34,6 +34,10 @@ pub struct Loaded {
     pub directory: PathBuf,
     /// The motion of kind `file`, else none.
     pub motion: Option<Arc<motion_file::Table>>,
+    /// Motions of bodies from files, by body; none where it is of another kind.
+    pub body_motions: Vec<Option<Arc<pose_file::PoseTable>>>,
+    /// Motions of points from files, by point.
+    pub point_motions: Vec<Option<Arc<motion_file::Table>>>,
     /// The CABLE file that the scene was read from, else none.
     pub deck: Option<Arc<Deck>>,
     /// The state of the only line that the file gives, else none.
@@ -70,6 +74,8 @@ pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resul
         file: file.to_string(),
         directory: directory.to_path_buf(),
         motion: None,
+        body_motions: Vec::new(),
+        point_motions: Vec::new(),
         deck: None,
         state: None,
         warnings,
@@ -93,8 +99,17 @@ fn parse_deck(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resu
     warnings.extend(meaning.warnings.iter().map(|warning| format!("{file}: {warning}")));
     warnings.extend(check::check(&scene, file).map_err(placed)?);
     let (deck, state) = (Some(Arc::new(reading.deck)), Some(Arc::new(meaning.state)));
-    let mut loaded =
-        Loaded { scene, file: file.to_string(), directory: directory.to_path_buf(), motion: None, deck, state, warnings };
+    let mut loaded = Loaded {
+        scene,
+        file: file.to_string(),
+        directory: directory.to_path_buf(),
+        motion: None,
+        body_motions: Vec::new(),
+        point_motions: Vec::new(),
+        deck,
+        state,
+        warnings,
+    };
     read_motion(&mut loaded)?;
     Ok(loaded)
 }
@@ -122,11 +137,27 @@ fn typed(value: &Value, source: &Source) -> Result<Scene, Error> {
         return Err(source.error(place, problem));
     }
     name_lines(&mut scene);
+    scene.place_ends();
     Ok(scene)
 }
 
-/// Reads the motion file that a checked scene names.
+/// Reads the motion files that a checked scene names.
 fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
+    for body in &loaded.scene.bodies {
+        let BodyMotion::File { path } = &body.motion else {
+            loaded.body_motions.push(None);
+            continue;
+        };
+        loaded.body_motions.push(Some(Arc::new(pose_file::read(&loaded.directory.join(path))?)));
+    }
+    for point in &loaded.scene.points {
+        let PointMotion::File { path } = &point.motion else {
+            loaded.point_motions.push(None);
+            continue;
+        };
+        let table = motion_file::read(&loaded.directory.join(path), &loaded.scene.environment)?;
+        loaded.point_motions.push(Some(Arc::new(table)));
+    }
     let Motion::File { path } = &loaded.scene.motion else { return Ok(()) };
     let place = loaded.directory.join(path);
     let table = match &loaded.deck {
@@ -141,31 +172,6 @@ fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
 /// JSON Schema of a scene, from the types that read it.
 pub fn schema() -> Value {
     schemars::schema_for!(Scene).to_value()
-}
-
-/// The bytes of a file; `what` says what the file should be. Larger files than `largest` bytes are refused.
-pub(super) fn read_bytes(path: &Path, largest: u64, what: &str) -> Result<Vec<u8>, Error> {
-    let failed = |reason: String| Error::File { path: path.display().to_string(), reason };
-    let file = File::open(path).map_err(|error| failed(error.to_string()))?;
-    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        return Err(failed(format!("this is a directory, not {what}")));
-    }
-    let mut bytes = Vec::new();
-    file.take(largest + 1).read_to_end(&mut bytes).map_err(|error| failed(error.to_string()))?;
-    if bytes.len() as u64 > largest {
-        return Err(failed(format!("larger than {} MB: this is not {what}", largest >> 20)));
-    }
-    Ok(bytes)
-}
-
-/// The text of a file, which must be UTF-8.
-pub(super) fn decode(bytes: Vec<u8>, file: &str) -> Result<String, Error> {
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let start = String::from_utf8_lossy(&error.as_bytes()[..valid]);
-        let (line, column) = place::line_and_column(&start, start.len());
-        Error::Json { file: file.into(), line, column, place: String::new(), problem: Problem::NotUtf8.into() }
-    })
 }
 
 /// JSON text as a tree.

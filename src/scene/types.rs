@@ -4,6 +4,7 @@
 //! name ends in `_deg`. Arc length runs unstretched from the fairlead (0) to the anchor (L).
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
+use crate::scene::bodies::{Body, End, Mount, Point};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -24,9 +25,17 @@ pub struct Scene {
     /// Line types by name; sections refer to them.
     #[schemars(extend("minProperties" = 1))]
     pub line_types: BTreeMap<String, LineType>,
-    /// The mooring lines, each independent of the others.
+    /// The mooring lines.
     #[schemars(length(min = 1))]
     pub lines: Vec<Line>,
+    /// Bodies that lines hang on: vessels, buoys. Default: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
+    pub bodies: Vec<Body>,
+    /// Points that lines meet at. Default: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("default" = []))]
+    pub points: Vec<Point>,
     /// Motion of the fairleads. Default: fixed.
     #[serde(default)]
     pub motion: Motion,
@@ -277,27 +286,81 @@ pub struct InnerFluid {
 }
 
 /// One mooring line from fairlead to anchor. Both ends are pinned, unless a constraint says otherwise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "LineKeys", into = "LineKeys")]
 pub struct Line {
-    /// Name, unique in the scene. Default: `line1`, `line2`, … by position.
-    #[serde(default)]
+    /// Name, unique in the scene.
     pub name: String,
     /// Position of the fairlead at the start [m].
     pub fairlead: Triple,
-    /// Position of the anchor [m].
+    /// What the fairlead hangs on; none: on nothing but its coordinates.
+    pub fairlead_on: Option<Mount>,
+    /// Position of the anchor at the start [m].
     pub anchor: Triple,
+    /// What the anchor hangs on; none: on nothing but its coordinates.
+    pub anchor_on: Option<Mount>,
+    /// Sections from fairlead to anchor, at least one.
+    pub sections: Vec<Section>,
+    /// Clump weights and buoys.
+    pub attachments: Vec<Attachment>,
+    /// Springs, dampers, locked directions, dead forces and masses at points of the line.
+    pub constraints: Vec<Constraint>,
+}
+
+/// One mooring line from fairlead to anchor. Both ends are pinned, unless a constraint says otherwise.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Line")]
+struct LineKeys {
+    /// Name, unique among lines, bodies and points. Default: `line1`, `line2`, … by position.
+    #[serde(default)]
+    name: String,
+    /// Position of the fairlead at the start [m], or what it hangs on.
+    fairlead: End,
+    /// Position of the anchor [m], or what it hangs on.
+    anchor: End,
     /// Sections from fairlead to anchor, at least one.
     #[schemars(length(min = 1))]
-    pub sections: Vec<Section>,
+    sections: Vec<Section>,
     /// Clump weights and buoys. Default: none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(extend("default" = []))]
-    pub attachments: Vec<Attachment>,
+    attachments: Vec<Attachment>,
     /// Springs, dampers, locked directions, dead forces and masses at points of the line. Default: none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(extend("default" = []))]
-    pub constraints: Vec<Constraint>,
+    constraints: Vec<Constraint>,
+}
+
+impl From<LineKeys> for Line {
+    fn from(keys: LineKeys) -> Line {
+        let LineKeys { name, fairlead, anchor, sections, attachments, constraints } = keys;
+        let parted = |end| match end {
+            End::At(at) => (at, None),
+            End::On(mount) => ([0.0; 3], Some(mount)),
+        };
+        let ((fairlead, fairlead_on), (anchor, anchor_on)) = (parted(fairlead), parted(anchor));
+        Line { name, fairlead, fairlead_on, anchor, anchor_on, sections, attachments, constraints }
+    }
+}
+
+impl From<Line> for LineKeys {
+    fn from(line: Line) -> LineKeys {
+        let Line { name, fairlead, fairlead_on, anchor, anchor_on, sections, attachments, constraints } = line;
+        let joined = |at: Triple, on: Option<Mount>| on.map_or(End::At(at), End::On);
+        let (fairlead, anchor) = (joined(fairlead, fairlead_on), joined(anchor, anchor_on));
+        LineKeys { name, fairlead, anchor, sections, attachments, constraints }
+    }
+}
+
+impl JsonSchema for Line {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        LineKeys::schema_name()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        LineKeys::json_schema(generator)
+    }
 }
 
 /// A stretch of one line type.

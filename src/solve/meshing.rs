@@ -145,7 +145,7 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
     } else {
         ground.resistance.iter().map(|r| r.stiffness).fold(f64::INFINITY, f64::min)
     };
-    let speed = fairlead_speed(&scene.motion);
+    let speed = fairlead_speed(&scene.motion_of(line));
     // What a snap adds, and what the line carries on the way of its fairlead without any.
     let (snap, carried) = (speed * mean(&|p| (p.ea * p.mass).sqrt()), largest_tension(scene, line));
     let (anchor, falls) = (Vector3::from(line.anchor), mean(&|p| fall_speed(p)));
@@ -161,7 +161,7 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
         stiffness: stiffness.max(f64::MIN_POSITIVE),
         mass: mean(&|p| p.mass + p.added_normal),
         ei: mean(&|p| p.ei),
-        period: match (&scene.motion, sea) {
+        period: match (&scene.motion_of(line), sea) {
             (Motion::Sinusoidal { period, .. }, None) => *period,
             (Motion::Sinusoidal { period, .. }, Some((omega, _))) => period.min(TAU / omega),
             (_, Some((omega, _))) => TAU / omega,
@@ -225,7 +225,7 @@ fn places(scene: &Scene, line: &Line, farther: f64) -> Vec<Vector3<f64>> {
     if !line.is_pinned(0.0) {
         return places;
     }
-    if let Motion::Sinusoidal { sine, cosine, .. } = &scene.motion {
+    if let Motion::Sinusoidal { sine, cosine, .. } = &scene.motion_of(line) {
         let (sine, cosine) = (Vector3::from(*sine), Vector3::from(*cosine));
         for k in 0..8 {
             let (s, c) = (k as f64 * std::f64::consts::FRAC_PI_4).sin_cos();

@@ -4,21 +4,13 @@ use crate::algebra::shape::Shape;
 use crate::algebra::sinusoid::Sinusoid;
 use crate::scene::motion_file::Table;
 use crate::scene::read::Loaded;
-use crate::scene::types::Motion;
+use crate::scene::bodies::{BodyMotion, Mount, PointMotion};
+use crate::scene::types::{Motion, Triple};
+pub use crate::solve::pose::Kinematics;
+use crate::solve::pose::PosePath;
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
-
-/// Position [m], velocity [m/s] and acceleration [m/s²] of a fairlead.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Kinematics {
-    /// Position [m].
-    pub position: Vector3<f64>,
-    /// Velocity [m/s].
-    pub velocity: Vector3<f64>,
-    /// Acceleration [m/s²].
-    pub acceleration: Vector3<f64>,
-}
 
 /// The motion of a fairlead in time.
 #[derive(Debug, Clone)]
@@ -41,18 +33,96 @@ pub enum Path {
         /// Coefficients of tau⁰, tau¹, …
         coefficients: Vec<Vector3<f64>>,
     },
+    /// With a place of a body.
+    OnBody {
+        /// The path of the body.
+        body: Arc<PosePath>,
+        /// The place in its axes [m].
+        at: Vector3<f64>,
+    },
+}
+
+/// The motions of both ends of a line.
+#[derive(Debug, Clone)]
+pub struct Ends {
+    /// Of the fairlead.
+    pub fairlead: Path,
+    /// Of the anchor.
+    pub anchor: Path,
+}
+
+impl Ends {
+    /// The motions of the ends of line `index` of a scene. Free bodies and points are at rest where the scene puts them.
+    pub fn of_scene(loaded: &Loaded, index: usize) -> Ends {
+        let Some(line) = loaded.scene.lines.get(index) else {
+            let nowhere = Path::Fixed(Vector3::zeros());
+            return Ends { fairlead: nowhere.clone(), anchor: nowhere };
+        };
+        let anchor = line.anchor_on.as_ref().map_or(Path::Fixed(line.anchor.into()), |on| Path::on(loaded, on, line.anchor));
+        Ends { fairlead: Path::of_scene(loaded, index), anchor }
+    }
+
+    /// An anchor that stays where it is.
+    pub fn anchored(fairlead: Path, anchor: Vector3<f64>) -> Ends {
+        Ends { fairlead, anchor: Path::Fixed(anchor) }
+    }
+}
+
+impl PosePath {
+    /// The motion of body `index` of a scene; a free one is at rest where the scene puts it.
+    pub fn of_scene(loaded: &Loaded, index: usize) -> PosePath {
+        let body = &loaded.scene.bodies[index];
+        let (position, angles) = (Vector3::from(body.position), body.attitude());
+        match (&body.motion, loaded.body_motions.get(index).cloned().flatten()) {
+            (BodyMotion::Sinusoidal { period, sine, cosine, ramp }, _) => {
+                let part = |six: &[f64; 6], from: usize| -> Triple {
+                    std::array::from_fn(|axis| if from == 0 { six[axis] } else { six[axis + 3].to_radians() })
+                };
+                let offset = |from| Sinusoid::new(*period, part(sine, from), part(cosine, from), *ramp);
+                PosePath::Sinusoidal { about: [position, angles], offsets: [offset(0), offset(3)] }
+            }
+            (BodyMotion::File { .. }, Some(table)) => PosePath::Table(table),
+            _ => PosePath::Fixed { position, angles },
+        }
+    }
 }
 
 impl Path {
     /// The motion of the fairlead of line `index` of a scene.
     pub fn of_scene(loaded: &Loaded, index: usize) -> Path {
         let origin = loaded.scene.lines.get(index).map_or(Vector3::zeros(), |line| line.fairlead.into());
+        if let Some(line) = loaded.scene.lines.get(index)
+            && let Some(on) = &line.fairlead_on
+        {
+            return Path::on(loaded, on, line.fairlead);
+        }
         match (&loaded.scene.motion, &loaded.motion) {
             (Motion::Sinusoidal { period, sine, cosine, ramp }, _) => {
                 Path::Sinusoidal { origin, offset: Sinusoid::new(*period, *sine, *cosine, *ramp) }
             }
             (Motion::File { .. }, Some(table)) => Path::Table(Arc::clone(table)),
             _ => Path::Fixed(origin),
+        }
+    }
+
+    /// The motion of what an end hangs on, which is at `place` at the start.
+    fn on(loaded: &Loaded, on: &Mount, place: Triple) -> Path {
+        let scene = &loaded.scene;
+        match on {
+            Mount::Body { body, at } => scene.body(body).map_or(Path::Fixed(place.into()), |index| Path::OnBody {
+                body: Arc::new(PosePath::of_scene(loaded, index)),
+                at: Vector3::from(*at),
+            }),
+            Mount::Point { point } => {
+                let number = scene.point(point);
+                match (number.map(|number| &scene.points[number].motion), number.and_then(|n| loaded.point_motions.get(n)?.clone())) {
+                    (Some(PointMotion::Sinusoidal { period, sine, cosine, ramp }), _) => {
+                        Path::Sinusoidal { origin: place.into(), offset: Sinusoid::new(*period, *sine, *cosine, *ramp) }
+                    }
+                    (_, Some(table)) => Path::Table(table),
+                    _ => Path::Fixed(place.into()),
+                }
+            }
         }
     }
 
@@ -75,6 +145,7 @@ impl Path {
                 }
                 k
             }
+            Path::OnBody { body, at } => body.place(at, time),
         }
     }
 }
@@ -94,6 +165,7 @@ impl Path {
                 let (span, powers) = ((from - start).abs().max((until - start).abs()), coefficients.iter().enumerate().skip(1));
                 powers.map(|(power, c)| c.norm() * span.powi(power as i32)).sum::<f64>() <= slight
             }
+            Path::OnBody { body, at } => body.rests(from, until, at.norm(), slight),
         };
         still && (self.at(until).position - place).norm() <= slight
     }
@@ -109,14 +181,8 @@ impl Path {
             Path::Polynomial { coefficients, .. } => {
                 coefficients.first().map_or(0.0, |c| c.y) == y && coefficients.iter().skip(1).all(|c| c.y == 0.0)
             }
+            Path::OnBody { body, at } => body.stays_at(at, y, from, until),
         }
-    }
-}
-
-impl Kinematics {
-    /// At rest at a point.
-    pub fn at_rest(position: Vector3<f64>) -> Kinematics {
-        Kinematics { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
     }
 }
 

@@ -17,6 +17,8 @@ pub struct Outputs {
     pub force: Vector3<f64>,
     /// |force| [N]: the effective tension at the fairlead, unless a body is there.
     pub tension: f64,
+    /// Position of the anchor [m].
+    pub anchor: Vector3<f64>,
     /// Force on the anchor [N].
     pub anchor_force: Vector3<f64>,
     /// |anchor_force| [N], as `tension`.
@@ -64,6 +66,11 @@ pub fn node_forces(line: &dyn Line, state: &State) -> Vec<Vector3<f64>> {
     forces
 }
 
+/// Force on what holds the anchor [N].
+pub fn anchor_force(line: &dyn Line, state: &State) -> Vector3<f64> {
+    node_forces(line, state)[0] - line.held_bodies(0, &motion(state))
+}
+
 /// Outputs of a state with given forces at the nodes [N], as `Line::node_forces` gives them.
 pub fn from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>], time: f64, work: f64) -> Outputs {
     let last = line.last();
@@ -74,6 +81,7 @@ pub fn from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>], time
         fairlead: state.u.position(last),
         force,
         tension: force.norm(),
+        anchor: state.u.position(0),
         anchor_force,
         anchor_tension: anchor_force.norm(),
         tension_max: forces.iter().map(Vector3::norm).fold(0.0, f64::max),
@@ -108,6 +116,7 @@ pub fn difference(after: &Outputs, before: &Outputs, per: f64) -> Outputs {
         fairlead: (after.fairlead - before.fairlead) * per,
         force: (after.force - before.force) * per,
         tension: (after.tension - before.tension) * per,
+        anchor: (after.anchor - before.anchor) * per,
         anchor_force: (after.anchor_force - before.anchor_force) * per,
         anchor_tension: (after.anchor_tension - before.anchor_tension) * per,
         tension_max: (after.tension_max - before.tension_max) * per,

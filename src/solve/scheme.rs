@@ -11,6 +11,7 @@ use crate::solve::generalized_alpha::GeneralizedAlpha;
 use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Newton, Stall, motion};
 use crate::solve::tangent::{LinearStage, SolvedStage};
+use nalgebra::Vector3;
 
 /// The line in time: the state and what the predictor remembers of the step before.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +45,8 @@ pub struct Bench<'a> {
     pub newton: &'a mut Newton,
     /// The motion of the fairlead.
     pub path: &'a Path,
+    /// The motion of the anchor, where it may move.
+    pub anchor: Option<&'a Path>,
     /// When a stage is solved.
     pub criteria: Criteria,
     /// Error of the positions that is small enough [m].
@@ -70,11 +73,26 @@ impl Bench<'_> {
         for (order, field) in [&mut state.u, &mut state.v, &mut state.a].into_iter().enumerate() {
             self.put(order, field, clock, &at);
         }
+        if let Some(anchor) = self.anchor {
+            let at = anchor.at(clock.now);
+            let State { u, v, a, .. } = state;
+            [(u, at.position), (v, at.velocity), (a, at.acceleration)].into_iter().for_each(|(field, to)| self.put_anchor(field, &to));
+        }
     }
 
     /// The same for positions (order 0), velocities (1) or accelerations (2) alone.
     pub fn prescribe_order(&self, order: usize, field: &mut Field, clock: Clock) {
         self.put(order, field, clock, &self.path.at(clock.now));
+        if let Some(anchor) = self.anchor {
+            let at = anchor.at(clock.now);
+            self.put_anchor(field, &[at.position, at.velocity, at.acceleration][order]);
+        }
+    }
+
+    fn put_anchor(&self, field: &mut Field, to: &Vector3<f64>) {
+        for &(_, component) in self.line.fixed().iter().filter(|(node, component)| *node == 0 && *component < 3) {
+            field.component_mut(component)[0] = to[component];
+        }
     }
 
     fn put(&self, order: usize, field: &mut Field, clock: Clock, at: &Kinematics) {

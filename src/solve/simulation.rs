@@ -15,7 +15,7 @@ use crate::solve::controller::{self, Controller, Demands, Failure};
 use crate::solve::line_state;
 use crate::solve::meshing;
 use crate::solve::mixed::{Advance, Mixed, Velocity};
-use crate::solve::motion::{Kinematics, Path};
+use crate::solve::motion::{Ends, Kinematics, Path};
 use crate::solve::newton::{Criteria, Effort, Newton, Stall, motion};
 use crate::solve::outputs;
 pub use crate::solve::outputs::{NodeOutput, Outputs};
@@ -96,6 +96,8 @@ pub struct Simulation {
     demands: Demands,
     moment: Moment,
     work: f64,
+    /// Work done on what moves the anchor [J].
+    anchor_work: f64,
     works: bool,
     fresh: bool,
     /// The state is known to be at rest.
@@ -141,12 +143,19 @@ impl Simulation {
     /// Line number `index` of a checked scene, for any motion of its fairlead: meshes it and picks its physics. Where the scene leaves
     /// the mesh to the program, it is refined until the static end tension meets the tolerance.
     pub fn new(scene: &Scene, index: usize) -> Result<Simulation, Error> {
-        Simulation::on_path(scene, index, None)
+        Simulation::on_ends(scene, index, None)
     }
 
-    /// The same for a line whose fairlead will take a path: with what this lets be left out. On another path it goes on with all that
-    /// was left out.
+    /// The same for a line whose fairlead will take a path, its anchor staying where it is.
     pub fn on_path(scene: &Scene, index: usize, path: Option<&Path>) -> Result<Simulation, Error> {
+        let anchor = scene.lines.get(index).map_or(Vector3::zeros(), |line| line.anchor.into());
+        let ends = path.map(|path| Ends::anchored(path.clone(), anchor));
+        Simulation::on_ends(scene, index, ends.as_ref())
+    }
+
+    /// The same for a line whose ends will take paths: with what this lets be left out. On other paths it goes on with all that
+    /// was left out.
+    pub fn on_ends(scene: &Scene, index: usize, path: Option<&Ends>) -> Result<Simulation, Error> {
         let Some(line) = scene.lines.get(index) else {
             let (place, value) = (format!("lines[{index}]"), String::from("a line that is not there"));
             return Err(Error::Value {
@@ -241,7 +250,7 @@ impl Simulation {
     }
 
     /// Line number `index` of a checked scene on a given mesh.
-    fn with_mesh(scene: &Scene, index: usize, path: Option<&Path>, mesh: Mesh) -> Result<Simulation, Error> {
+    fn with_mesh(scene: &Scene, index: usize, path: Option<&Ends>, mesh: Mesh) -> Result<Simulation, Error> {
         let solver = &scene.solver;
         let is_mixed = solver.scheme == Scheme::Cable1994;
         let mesh = if is_mixed { Mesh { folds: false, ..mesh.without_joints() } } else { mesh };
@@ -254,7 +263,7 @@ impl Simulation {
         let mut surroundings = Surroundings::of(scene, &mesh);
         let plane = plane::decision(scene, &scene.lines[index], &surroundings, &supports, path);
         surroundings.planar = !plane.on;
-        let held = Path::Fixed(scene.lines[index].fairlead.into());
+        let held = Ends::anchored(Path::Fixed(scene.lines[index].fairlead.into()), scene.lines[index].anchor.into());
         let may_be_planar = !plane::decision(scene, &scene.lines[index], &surroundings, &supports, Some(&held)).on;
         let decisions = report.unwrap_or_else(|| {
             let mut decisions = physics::decisions(scene, &mesh, &supports);
@@ -296,6 +305,7 @@ impl Simulation {
             line,
             mixed,
             work: 0.0,
+            anchor_work: 0.0,
             works: false,
             fresh: true,
             resting: false,
@@ -341,6 +351,12 @@ impl Simulation {
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
     /// On `Err(Error::Statics)` the best state found stands, so that it can be looked at.
     pub fn settle(&mut self, fairlead: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
+        self.settle_between(fairlead, self.anchor, time)
+    }
+
+    /// The same with both ends at given points.
+    pub fn settle_between(&mut self, fairlead: Vector3<f64>, anchor: Vector3<f64>, time: f64) -> Result<StaticsReport, Error> {
+        self.anchor = anchor;
         if fairlead.y != self.anchor.y {
             self.leave_plane();
         }
@@ -432,19 +448,29 @@ impl Simulation {
         self.demands.error = ERROR_SHARE * (self.tolerance / 1.0e-3).powf(0.8).min(1.0) * self.tolerance * length;
         self.newton.forget();
         self.newton.effort = Effort::default();
-        (self.work, self.fresh, self.resting, self.last) = (0.0, true, false, LastStep::default());
+        (self.work, self.anchor_work, self.fresh, self.resting, self.last) = (0.0, 0.0, true, false, LastStep::default());
     }
 
     /// Advances to a time with the fairlead on a path. On an error the state is the one before the call. A line at rest whose
     /// fairlead stays where it is takes no steps.
     pub fn advance(&mut self, until: f64, path: &Path) -> Result<(), Error> {
-        self.check_path(until, path)?;
+        self.go(until, path, None)
+    }
+
+    /// The same with both ends on paths.
+    pub fn advance_ends(&mut self, until: f64, ends: &Ends) -> Result<(), Error> {
+        self.go(until, &ends.fairlead, moving(&ends.anchor))
+    }
+
+    fn go(&mut self, until: f64, path: &Path, anchor: Option<&Path>) -> Result<(), Error> {
+        self.check_path(until, path, anchor)?;
         let begin = self.moment.state.clock.now;
         self.mark();
-        if self.line.is_planar() && !path.stays_at(self.anchor.y, begin, until) {
+        let leaves = |path: &Path| !path.stays_at(self.anchor.y, begin, until);
+        if self.line.is_planar() && (leaves(path) || anchor.is_some_and(leaves)) {
             self.leave_plane();
         }
-        if self.rests(until, path) {
+        if self.rests(until, path, anchor) {
             (self.moment.state.clock.now, self.last) = (until, LastStep::default());
             return Ok(());
         }
@@ -454,7 +480,7 @@ impl Simulation {
         let outcome = if self.mixed.is_some() {
             self.run_mixed(until, &|time| path.at(time).velocity)
         } else {
-            self.begin(path).and_then(|()| self.run(until, path))
+            self.begin(path, anchor).and_then(|()| self.run(until, path, anchor))
         };
         match outcome {
             Ok(()) => {
@@ -474,7 +500,7 @@ impl Simulation {
     }
 
     /// Whether nothing would happen before `until`. Depends on the state and the path alone, so that it is the same after a rollback.
-    fn rests(&mut self, until: f64, path: &Path) -> bool {
+    fn rests(&mut self, until: f64, path: &Path, anchor: Option<&Path>) -> bool {
         let (line, state) = (self.line.as_ref(), &self.moment.state);
         let (last, slight) = (line.last(), SLIGHT * line.mesh().length);
         let still = self.demands.fixed_step.is_none()
@@ -482,7 +508,8 @@ impl Simulation {
             && self.supports.holds.is_empty()
             && state.holds.nodes() == 0
             && (self.fresh || state.v.position(last) == Vector3::zeros() && state.a.position(last) == Vector3::zeros())
-            && path.rests(state.clock.now, until, &state.u.position(last), slight);
+            && path.rests(state.clock.now, until, &state.u.position(last), slight)
+            && anchor.is_none_or(|anchor| anchor.rests(state.clock.now, until, &state.u.position(0), slight));
         if still && !self.resting {
             let allowed = REST_SHARE * self.tolerance * line.end_force(&motion(state)).norm();
             self.resting = rest::rests(line, &mut self.newton, state, allowed);
@@ -491,14 +518,22 @@ impl Simulation {
         self.resting
     }
 
-    fn run(&mut self, until: f64, path: &Path) -> Result<(), Failure> {
+    fn run(&mut self, until: f64, path: &Path, anchor: Option<&Path>) -> Result<(), Failure> {
         let line = self.line.as_ref();
         let end = |moment: &Moment| (line.end_force(&motion(&moment.state)), moment.state.u.position(line.last()));
         let mut before = self.works.then(|| end(&self.moment));
         let work = &mut self.work;
         let (criteria, allowed) = (self.demands.criteria, self.demands.error);
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Solve };
+        let mut bench = Bench { line, newton: &mut self.newton, path, anchor, criteria, allowed, stages: Stages::Solve };
+        let anchor_end = |moment: &Moment| (outputs::anchor_force(line, &moment.state), moment.state.u.position(0));
+        let mut anchor_before = anchor.filter(|_| self.works).map(|_| anchor_end(&self.moment));
+        let anchor_work = &mut self.anchor_work;
         self.controller.advance(&mut bench, &self.demands, &mut self.moment, until, |moment, _| {
+            if let Some((force, place)) = &mut anchor_before {
+                let (force_now, place_now) = anchor_end(moment);
+                *anchor_work += 0.5 * (*force + force_now).dot(&(place_now - *place));
+                (*force, *place) = (force_now, place_now);
+            }
             if let Some((force, place)) = &mut before {
                 let (force_now, place_now) = end(moment);
                 *work += 0.5 * (*force + force_now).dot(&(place_now - *place));
@@ -521,7 +556,7 @@ impl Simulation {
     }
 
     /// Before the first step after statics: the fairlead takes up the velocity and acceleration of its path, the line those that fit.
-    fn begin(&mut self, path: &Path) -> Result<(), Failure> {
+    fn begin(&mut self, path: &Path, anchor: Option<&Path>) -> Result<(), Failure> {
         if !std::mem::take(&mut self.fresh) {
             return Ok(());
         }
@@ -530,6 +565,7 @@ impl Simulation {
             line: self.line.as_ref(),
             newton: &mut self.newton,
             path,
+            anchor,
             criteria,
             allowed: self.demands.error,
             stages: Stages::Solve,
@@ -537,28 +573,32 @@ impl Simulation {
         begin(&mut bench, &mut self.moment).map_err(|stall| Failure { time, step: 0.0, stall: Some(stall) })
     }
 
-    fn check_path(&self, until: f64, path: &Path) -> Result<(), Error> {
+    fn check_path(&self, until: f64, path: &Path, anchor: Option<&Path>) -> Result<(), Error> {
         let (time, length) = (self.moment.state.clock.now, self.line.mesh().length);
-        let fairlead = self.moment.state.u.position(self.line.last());
         let (from, to) = (path.at(time), path.at(until));
-        let jump = (from.position - fairlead).norm();
-        let reach = (to.position - self.anchor).norm();
-        let cause = if !(is_finite(&from) && is_finite(&to) && until.is_finite()) {
-            Cause::BadMotion
-        } else if !self.line.is_pinned(self.line.last()) {
-            return Ok(());
-        } else if jump > self.mixed.as_ref().map_or(1e-6, |_| MIXED_JUMP) * length {
-            Cause::Jump { distance: jump }
-        } else if reach > 2.0 * length {
-            Cause::OutOfReach { distance: reach, length }
+        let held = Kinematics::at_rest(self.anchor);
+        let (anchor_from, anchor_to) = anchor.map_or((held, held), |anchor| (anchor.at(time), anchor.at(until)));
+        let jump = |end: &Kinematics, node: usize| (end.position - self.moment.state.u.position(node)).norm();
+        let (last, allowed) = (self.line.last(), self.mixed.as_ref().map_or(1e-6, |_| MIXED_JUMP) * length);
+        let reach = (to.position - anchor_to.position).norm();
+        let (zone, cause) = if !([&from, &to].into_iter().all(is_finite) && until.is_finite()) {
+            (Zone::Fairlead, Cause::BadMotion)
+        } else if ![&anchor_from, &anchor_to].into_iter().all(is_finite) {
+            (Zone::Anchor, Cause::BadMotion)
+        } else if self.line.is_pinned(last) && jump(&from, last) > allowed {
+            (Zone::Fairlead, Cause::Jump { distance: jump(&from, last) })
+        } else if anchor.is_some() && self.line.is_pinned(0) && jump(&anchor_from, 0) > allowed {
+            (Zone::Anchor, Cause::Jump { distance: jump(&anchor_from, 0) })
+        } else if self.line.is_pinned(last) && reach > 2.0 * length {
+            (Zone::Fairlead, Cause::OutOfReach { distance: reach, length })
         } else {
             return Ok(());
         };
         Err(Error::Step(Box::new(Stuck {
             line: self.name.clone(),
             time: until,
-            s: 0.0,
-            zone: Zone::Fairlead,
+            s: if zone == Zone::Anchor { length } else { 0.0 },
+            zone,
             cause,
             fairlead_speed: to.velocity.norm(),
             last_good_time: self.moment.state.clock.now,
@@ -622,6 +662,16 @@ impl Simulation {
         let velocity = state.v.position(self.line.last());
         (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));
         rates
+    }
+
+    /// Work done on what moves the anchor since the start [J], where it is summed up.
+    pub fn anchor_work(&self) -> f64 {
+        self.anchor_work
+    }
+
+    /// Position of the anchor now [m].
+    pub fn anchor_position(&self) -> Vector3<f64> {
+        self.moment.state.u.position(0)
     }
 
     /// Outputs now.
@@ -733,6 +783,11 @@ fn begin(bench: &mut Bench, moment: &mut Moment) -> Result<(), Stall> {
     let now = moment.state.clock;
     bench.prescribe(&mut moment.state, now);
     bench.accelerate(&mut moment.state)
+}
+
+/// The path of an anchor that may move.
+fn moving(anchor: &Path) -> Option<&Path> {
+    Some(anchor).filter(|path| !matches!(path, Path::Fixed(_)))
 }
 
 fn is_finite(k: &Kinematics) -> bool {

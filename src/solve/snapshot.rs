@@ -17,6 +17,8 @@ pub struct Snapshot {
     /// Of `cable-1994`; empty for every other scheme.
     pub(super) tensions: Tensions,
     pub(super) work: f64,
+    /// Work done on what moves the anchor.
+    pub(super) anchor_work: f64,
     pub(super) fresh: bool,
     /// The line is known to be at rest.
     pub(super) resting: bool,
@@ -42,7 +44,7 @@ impl Snapshot {
         let (state, earlier, tensions) = (State::new(nodes), Field::new(nodes), Tensions::default());
         let moment = Moment { state, earlier, last_step: 0.0, step: 0.0, tried: 0.0, guard: 0 };
         let (memory, last) = (Memory::none(), LastStep::default());
-        Snapshot { moment, memory, tensions, work: 0.0, fresh: true, resting: false, planar: false, error: 0.0, last }
+        Snapshot { moment, memory, tensions, work: 0.0, anchor_work: 0.0, fresh: true, resting: false, planar: false, error: 0.0, last }
     }
 
     /// Number of nodes of the line it belongs to.
@@ -67,8 +69,9 @@ impl Snapshot {
         out.reserve(8 * (words.len() + SCALARS + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())));
         words.into_iter().for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
         let clock = m.state.clock;
-        let scalars: [f64; SCALARS] =
-            [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate, self.work, self.error, last.error_estimate];
+        let steps = [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate];
+        write(&steps, out);
+        let scalars: [f64; SCALARS - 6] = [self.work, self.anchor_work, self.error, last.error_estimate];
         write(&scalars, out);
         [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds].into_iter().for_each(|field| write_field(field, out));
         write(&self.tensions.now, out);
@@ -103,7 +106,7 @@ impl Snapshot {
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
         let clock = Clock { now: number()?, start: number()? };
         let (last_step, step, tried, rate) = (number()?, number()?, number()?, number()?);
-        let (work, error, error_estimate) = (number()?, number()?, number()?);
+        let (work, anchor_work, error, error_estimate) = (number()?, number()?, number()?, number()?);
         let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
         let (earlier, holds) = (field(nodes, &mut number)?, field(holding, &mut number)?);
         let mut list = || (0..per_node * nodes).map(|_| number()).collect::<Option<Vec<f64>>>();
@@ -120,6 +123,7 @@ impl Snapshot {
             memory: Memory { origin, rate, rough },
             tensions,
             work,
+            anchor_work,
             fresh,
             resting,
             planar,
@@ -132,7 +136,7 @@ impl Snapshot {
 /// Flags of a state.
 const FLAGS: usize = 5;
 /// Scalars of a state.
-const SCALARS: usize = 9;
+const SCALARS: usize = 10;
 
 fn write(numbers: &[f64], out: &mut Vec<u8>) {
     out.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));

@@ -56,6 +56,8 @@ pub fn meaning(deck: &Deck) -> Meaning {
     let line = Line {
         name: String::from("line"),
         fairlead: std::array::from_fn(|k| top[k] - offset[k]),
+        fairlead_on: None,
+        anchor_on: None,
         anchor: deck.nodes.last().map_or([0.0; 3], |node| turned(node.position)),
         sections: sections(deck, &names),
         attachments: Vec::new(),
@@ -65,7 +67,7 @@ pub fn meaning(deck: &Deck) -> Meaning {
     let environment = environment(deck, common);
     let solver = Solver { stretch: Some(Stretch::Report), hydrostatic_strain: true, ..Solver::default() };
     Meaning {
-        scene: Scene { title: deck.title.clone(), environment, line_types, lines: vec![line], motion, run, solver },
+        scene: Scene { title: deck.title.clone(), environment, line_types, lines: vec![line], bodies: Vec::new(), points: Vec::new(), motion, run, solver },
         state,
         warnings,
     }

@@ -1,12 +1,12 @@
 //! What a step's end depends on: steps taken again as linear ones, or repeated where the scheme is one linear solve itself.
 
-use super::{Simulation, begin};
+use super::{Simulation, begin, moving};
 use crate::error::Error;
 use crate::rod::line::Line;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::State;
 use crate::solve::controller::{self, Failure, Leg};
-use crate::solve::motion::Path;
+use crate::solve::motion::{Ends, Path};
 use crate::solve::outputs::{self, Outputs};
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::snapshot::Snapshot;
@@ -51,6 +51,12 @@ impl Linearised {
 impl Simulation {
     /// Takes the steps to a time and linearises them. The simulation stays as it is.
     pub fn linearise(&mut self, until: f64, path: &Path) -> Result<Linearised, Error> {
+        self.linearise_ends(until, &Ends::anchored(path.clone(), self.anchor))
+    }
+
+    /// The same with both ends on paths.
+    pub fn linearise_ends(&mut self, until: f64, ends: &Ends) -> Result<Linearised, Error> {
+        let path = &ends.fairlead;
         let now = self.snapshot();
         let spatial = self.line.is_planar().then(|| self.in_space());
         self.leave_plane();
@@ -58,7 +64,7 @@ impl Simulation {
         let outcome = if self.mixed.is_some() {
             Ok(Linearised::repeated(&now, until, path))
         } else {
-            self.linearise_from_here(until, path)
+            self.linearise_from_here(until, path, moving(&ends.anchor))
         };
         let outcome = outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, path, now.moment.state.clock.now))));
         self.restore(&now);
@@ -69,16 +75,25 @@ impl Simulation {
     /// Change of the outputs in equilibrium per displacement of the fairlead along `direction` [m], by central difference: what friction holds and what
     /// lies on the bed follows as statics lets it. The simulation stays as it is.
     pub fn static_derivative(&mut self, fairlead: Vector3<f64>, direction: Vector3<f64>) -> Result<Outputs, Error> {
+        self.static_derivative_ends([fairlead, self.anchor], [direction, Vector3::zeros()])
+    }
+
+    /// The same per displacement of both ends, fairlead and anchor.
+    pub fn static_derivative_ends(&mut self, ends: [Vector3<f64>; 2], directions: [Vector3<f64>; 2]) -> Result<Outputs, Error> {
         let (now, time) = (self.snapshot(), self.moment.state.clock.now);
         let (tally, fresh, length) = ((self.controller.tally, self.newton.effort), self.fresh, self.line.mesh().length);
-        let size = direction.norm();
+        let size = directions.iter().map(Vector3::norm).fold(0.0, f64::max);
         let share = STATIC_SHARE * length / size.max(f64::MIN_POSITIVE);
-        let mut moved = |share: f64| self.settle(fairlead + direction * share, time).map(|_| self.outputs());
-        let ends = moved(share).and_then(|after| Ok((after, moved(-share)?)));
+        let mut moved = |share: f64| {
+            let [fairlead, anchor] = [0, 1].map(|end: usize| ends[end] + directions[end] * share);
+            self.settle_between(fairlead, anchor, time).map(|_| self.outputs())
+        };
+        let after_and_before = moved(share).and_then(|after| Ok((after, moved(-share)?)));
         self.restore(&now);
         (self.controller.tally, self.newton.effort) = tally;
         self.fresh = fresh;
-        let (after, before) = ends?;
+        self.anchor = ends[1];
+        let (after, before) = after_and_before?;
         Ok(outputs::difference(&after, &before, 0.5 / share))
     }
 
@@ -87,13 +102,14 @@ impl Simulation {
         physics::build(self.line.mesh().clone(), surroundings, self.supports.clone())
     }
 
-    fn linearise_from_here(&mut self, until: f64, path: &Path) -> Result<Linearised, Failure> {
+    fn linearise_from_here(&mut self, until: f64, path: &Path, anchor: Option<&Path>) -> Result<Linearised, Failure> {
         let (time, line, criteria) = (self.moment.state.clock.now, self.line.as_ref(), self.demands.criteria);
         let allowed = self.demands.error;
         let failed = |stall| Failure { time, step: 0.0, stall: Some(stall) };
         let mut solved = Vec::new();
         let mut legs = Vec::new();
-        let mut bench = Bench { line, newton: &mut self.newton, path, criteria, allowed, stages: Stages::Record(&mut solved) };
+        let stages = Stages::Record(&mut solved);
+        let mut bench = Bench { line, newton: &mut self.newton, path, anchor, criteria, allowed, stages };
         let fresh = std::mem::take(&mut self.fresh);
         if fresh {
             begin(&mut bench, &mut self.moment).map_err(failed)?;
@@ -110,7 +126,12 @@ impl Simulation {
 
     /// Change of all outputs at the end of linearised steps per variation of their path: the steps are differentiated, not repeated.
     pub fn derivative(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Error> {
-        let outcome = self.change(steps, variation);
+        self.derivative_ends(steps, variation, None)
+    }
+
+    /// The same per variation of the paths of both ends; none: the anchor's stays.
+    pub fn derivative_ends(&mut self, steps: &Linearised, variation: &Path, anchor: Option<&Path>) -> Result<Outputs, Error> {
+        let outcome = self.change(steps, variation, anchor);
         outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, variation, steps.time))))
     }
 
@@ -132,7 +153,7 @@ impl Simulation {
         Ok(Outputs { work, ..outputs::difference(&after, &before, 0.5 / share) })
     }
 
-    fn change(&mut self, steps: &Linearised, variation: &Path) -> Result<Outputs, Failure> {
+    fn change(&mut self, steps: &Linearised, variation: &Path, anchor: Option<&Path>) -> Result<Outputs, Failure> {
         if let Some(repeated) = &steps.repeated {
             return self.difference_of_repeats(repeated, variation);
         }
@@ -141,7 +162,7 @@ impl Simulation {
         let failed = |stall| Failure { time: *time, step: 0.0, stall: Some(stall) };
         let stages = Stages::Linear(stages.iter());
         let allowed = self.demands.error;
-        let mut bench = Bench { line, newton: &mut self.newton, path: variation, criteria, allowed, stages };
+        let mut bench = Bench { line, newton: &mut self.newton, path: variation, anchor, criteria, allowed, stages };
         let mut change = controller::at_rest(line, *time, 0.0);
         if *fresh {
             begin(&mut bench, &mut change).map_err(failed)?;

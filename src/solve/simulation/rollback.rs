@@ -26,6 +26,7 @@ impl Simulation {
         }
         (snapshot.planar, snapshot.resting) = (self.line.is_planar(), self.resting);
         (snapshot.work, snapshot.fresh, snapshot.last) = (self.work, self.fresh, self.last);
+        snapshot.anchor_work = self.anchor_work;
     }
 
     /// Puts back a state of this line, after which all goes on as it went on from there; false, and nothing changed, if it belongs to a
@@ -41,6 +42,7 @@ impl Simulation {
             mixed.restore(&snapshot.tensions);
         }
         self.demands.error = snapshot.error;
+        self.anchor_work = snapshot.anchor_work;
         (self.work, self.fresh, self.resting, self.last) = (snapshot.work, snapshot.fresh, snapshot.resting, snapshot.last);
         true
     }
