@@ -56,6 +56,7 @@ pub mod rod {
     pub mod bending;
     pub mod body;
     pub mod catenary;
+    pub mod cylinder;
     pub mod elasticity;
     pub mod element;
     pub mod element_tangent;
@@ -67,10 +68,12 @@ pub mod rod {
     pub mod mesh;
     pub mod morison;
     pub mod physics;
+    pub mod rigid;
     pub mod seabed;
     pub mod state;
     pub mod stretch;
     pub mod surface;
+    pub mod system;
     pub mod touching;
 }
 
@@ -97,6 +100,7 @@ pub mod cable1994 {
 pub mod solve {
     pub mod adams_moulton;
     pub mod bow;
+    pub mod condensed;
     pub mod controller;
     pub mod departure;
     pub mod esdirk;
@@ -107,6 +111,7 @@ pub mod solve {
     pub mod meshing;
     pub mod mixed;
     pub mod motion;
+    pub mod network;
     pub mod newton;
     pub mod outputs;
     pub mod plane;

@@ -132,6 +132,7 @@ fn line_of(physics: &Physics) -> Box<dyn Line> {
         added_normal: 60.0 * water,
         added_tangential: 10.0 * water,
         seabed_stiffness: None,
+        folds: false,
         ..material(2.0e4, 12.0, 70.0)
     };
     let other = Properties { ea: 7.0e4, mass: 20.0, weight: 150.0, weight_in_air: 190.0, ..rope };

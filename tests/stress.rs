@@ -77,6 +77,7 @@ fn line_type(random: &mut Random) -> LineType {
         inner_fluid: None,
         outer_area: None,
         seabed_stiffness: None,
+        folds: false,
     }
 }
 

@@ -20,7 +20,7 @@ use crate::rod::state::COMPONENTS;
 use crate::rod::state::Field;
 use crate::rod::stretch::{Axial, Direction, Stretch};
 use crate::sea::clock::Clock;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use pulp::{Arch, Simd, WithSimd};
 use std::marker::PhantomData;
 
@@ -37,6 +37,8 @@ pub struct Motion<'a> {
     pub a: &'a Field,
     /// Places of the bed to which the line holds on by friction.
     pub holds: &'a Field,
+    /// Rotations from which the rotation vectors of free bodies count.
+    pub frames: &'a [Matrix3<f64>],
 }
 
 /// Weights of the tangent: c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a.
@@ -112,7 +114,7 @@ impl Table {
             put(Property::Damping, e, p.damping);
             put(Property::Floor, e, if mesh.limp { 0.0 } else { p.tension_floor() });
             put(Property::Friction, e, SLACK_FRICTION * p.slack_weight() * element.length);
-            put(Property::Ei, e, if mesh.folds { p.bight_stiffness(element.length) } else { p.ei });
+            put(Property::Ei, e, if p.folds { p.bight_stiffness(element.length) } else { p.ei });
             put(Property::DragNormal, e, p.drag_normal);
             put(Property::DragTangential, e, p.drag_tangential);
             put(Property::AddedNormal, e, p.added_normal);

@@ -20,7 +20,7 @@ pub fn stiffnesses(mesh: &Mesh) -> Vec<f64> {
         .map(|e| {
             let beside =
                 |other: Option<usize>| other.filter(|i| *i < count).map(|i| (mesh.properties_of(i), mesh.elements[i].length));
-            match (mesh.elements[e].is_joint(), beside(e.checked_sub(1)), beside(Some(e + 1))) {
+            match (mesh.elements[e].is_joint() && !mesh.gaps.contains(&e), beside(e.checked_sub(1)), beside(Some(e + 1))) {
                 (true, Some((a, l_a)), Some((b, l_b))) if stiff(a) && stiff(b) => STIFFER * (a.ei / l_a + b.ei / l_b),
                 _ => 0.0,
             }

@@ -1,4 +1,4 @@
-//! The seam between the discrete line and the solvers: `Line`, and `Rod`, its one implementation.
+//! The discrete line: `Line`, the seam to statics and outputs, and `Rod`, its one implementation.
 //!
 //! Below the seam all is monomorphised for the physics that the scene needs; above it nothing is generic.
 
@@ -17,33 +17,22 @@ use crate::rod::morison::Water;
 use crate::rod::seabed::Bed;
 use crate::rod::state::Field;
 use crate::rod::stretch::Stretch;
+use crate::rod::system::System;
 use crate::rod::touching::Ground;
 use nalgebra::Vector3;
 use std::marker::PhantomData;
 use std::ops::AddAssign;
 
-/// A discrete line: its residual force and the tangent of it.
-pub trait Line: Send + Sync {
+/// A discrete line, as far as more is asked of it than a time step needs.
+pub trait Line: System {
     /// The elements.
     fn mesh(&self) -> &Mesh;
-    /// Unknowns that are prescribed, as (node, component).
-    fn fixed(&self) -> &[(usize, usize)];
     /// Whether a node is pinned, by prescribed components of its position.
     fn is_pinned(&self, node: usize) -> bool {
         (0..3).all(|c| self.fixed().contains(&(node, c)))
     }
-    /// Whether the line knows motion in the x–z plane alone.
-    fn is_planar(&self) -> bool;
-    /// Sets positions (order 0), velocities (1) or accelerations (2) of nodes along locked axes to what they are held to at a time.
-    fn place(&self, order: usize, field: &mut Field, time: f64);
     /// Weight of what hangs on the line, and dead forces at its nodes [N]: sizes of forces, for comparison.
     fn burden(&self) -> f64;
-    /// Residual R [N, N·m]: the force to be applied from outside for this motion. At tied nodes it stands at the second.
-    fn residual(&self, at: &Motion, out: &mut Field);
-    /// c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a. `geometric`, where given, is the tension of the geometric part at each Gauss point [N].
-    fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>);
-    /// M x: the inertia of the line (and of the water moved with it) for accelerations x, everything else at rest [N, N·m].
-    fn inertia(&self, at: &Motion, x: &Field, out: &mut Field);
     /// Tension at each Gauss point after a change of u, to first order [N]; three per element.
     fn linear_tensions(&self, u: &Field, change: &Field, out: &mut [f64]);
     /// Tension at each Gauss point [N]; three per element.
@@ -61,16 +50,8 @@ pub trait Line: Send + Sync {
     fn grounded_length(&self, u: &Field) -> f64 {
         (0..self.mesh().elements.len()).map(|e| self.touching_length(u, e)).sum()
     }
-    /// Nodes of the field of places to which the line holds on by friction; 0 without friction.
-    fn holding_nodes(&self) -> usize;
     /// Places of the bed to which a line holds on that was laid slack, from its anchor on, to where it lies now, and then stretched.
     fn lay(&self, u: &Field, holds: &mut Field);
-    /// Moves the places of the bed to which the line holds on after a step to these positions and velocities.
-    fn hold(&self, u: &Field, v: &Field, holds: &mut Field);
-    /// Number of the last node, the fairlead.
-    fn last(&self) -> usize {
-        self.mesh().elements.len()
-    }
 }
 
 /// A line with a law of extension, water and bending chosen at load time.
@@ -106,7 +87,7 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
         let table = Table::new(&mesh, surface.as_ref().map(|_| water.lowest_surface()));
         let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance, ground.friction.is_some()));
-        let joints = (0..table.len()).filter(|e| table.is_joint(*e)).collect();
+        let joints = (0..table.len()).filter(|e| table.is_joint(*e) && !mesh.gaps.contains(e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
         Rod { mesh, table, water, ground, bed, surface, joints, stiff_joints, supports, laws: PhantomData }
     }
@@ -142,9 +123,13 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
     }
 }
 
-impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
-    fn mesh(&self) -> &Mesh {
-        &self.mesh
+impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> {
+    fn nodes(&self) -> usize {
+        self.mesh.nodes()
+    }
+
+    fn ties(&self) -> Vec<bool> {
+        self.mesh.ties()
     }
 
     fn fixed(&self) -> &[(usize, usize)] {
@@ -157,12 +142,6 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
 
     fn place(&self, order: usize, field: &mut Field, time: f64) {
         self.supports.holds.iter().filter(|hold| hold.locks()).for_each(|hold| hold.place(order, field, time));
-    }
-
-    fn burden(&self) -> f64 {
-        let Supports { loads, bodies, holds, .. } = &self.supports;
-        let dead = loads.iter().map(|(_, force)| force.norm()).chain(holds.iter().map(|hold| hold.force.norm()));
-        dead.chain(bodies.iter().map(|body| body.net_weight().abs().max(0.1 * body.weight))).sum()
     }
 
     fn residual(&self, at: &Motion, out: &mut Field) {
@@ -230,6 +209,29 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
         self.project(out);
     }
 
+    fn holding_nodes(&self) -> usize {
+        let rough = self.ground.as_ref().is_some_and(|ground| ground.friction.is_some());
+        if rough { self.mesh.nodes() } else { 0 }
+    }
+
+    fn hold(&self, u: &Field, v: &Field, holds: &mut Field) {
+        if let Some(ground) = &self.ground {
+            ground.hold(&self.table, u, v, holds);
+        }
+    }
+}
+
+impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
+    fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    fn burden(&self) -> f64 {
+        let Supports { loads, bodies, holds, .. } = &self.supports;
+        let dead = loads.iter().map(|(_, force)| force.norm()).chain(holds.iter().map(|hold| hold.force.norm()));
+        dead.chain(bodies.iter().map(|body| body.net_weight().abs().max(0.1 * body.weight))).sum()
+    }
+
     fn linear_tensions(&self, u: &Field, change: &Field, out: &mut [f64]) {
         element::linear_tensions::<S>(&self.table, u, change, out);
     }
@@ -265,20 +267,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
         -line - self.held_bodies(self.last(), at)
     }
 
-    fn holding_nodes(&self) -> usize {
-        let rough = self.ground.as_ref().is_some_and(|ground| ground.friction.is_some());
-        if rough { self.mesh.nodes() } else { 0 }
-    }
-
     fn lay(&self, u: &Field, holds: &mut Field) {
         if let Some(ground) = &self.ground {
             ground.lay(&self.table, u, holds);
-        }
-    }
-
-    fn hold(&self, u: &Field, v: &Field, holds: &mut Field) {
-        if let Some(ground) = &self.ground {
-            ground.hold(&self.table, u, v, holds);
         }
     }
 

@@ -39,10 +39,10 @@ pub struct Mesh {
     pub elasticities: Vec<Elasticity>,
     /// Joints, by element, at which something acts on the line.
     pub points: Vec<usize>,
+    /// Joints, by element, between lines: nothing is joined there.
+    pub gaps: Vec<usize>,
     /// No element pushes, whatever its bending stiffness: a line on the way to equilibrium, whose energy is convex.
     pub limp: bool,
-    /// The line is slack and flexible: its bights are tighter than elements can show, and get a bending stiffness of their own (`bight_stiffness`).
-    pub folds: bool,
 }
 
 /// Bending stiffness of a bight as a share of w ℓ³: a bight is then about (EI/w)^⅓ = ℓ/7 wide, which an element can show.
@@ -86,6 +86,8 @@ pub struct Properties {
     pub added_tangential: f64,
     /// Stiffness of the bed under it [Pa]; none: the environment's.
     pub seabed_stiffness: Option<f64>,
+    /// The line is slack and flexible: its bights are tighter than elements can show, and get a bending stiffness of their own (`bight_stiffness`).
+    pub folds: bool,
 }
 
 impl Properties {
@@ -107,6 +109,7 @@ impl Properties {
             added_normal: rho * area * line_type.added_mass.normal,
             added_tangential: rho * area * line_type.added_mass.tangential,
             seabed_stiffness: line_type.seabed_stiffness,
+            folds: false,
         }
     }
 
@@ -147,7 +150,50 @@ impl Mesh {
 
     /// Whether any element resists bending.
     pub fn bends(&self) -> bool {
-        self.folds || self.sections.iter().any(|section| section.ei > 0.0)
+        self.sections.iter().any(|section| section.folds || section.ei > 0.0)
+    }
+
+    /// Whether bights of it get a bending stiffness of their own.
+    pub fn folds(&self) -> bool {
+        self.sections.iter().any(|section| section.folds)
+    }
+
+    /// The same mesh whose bights get a bending stiffness of their own, or do not.
+    pub fn with_folds(mut self, folds: bool) -> Mesh {
+        self.sections.iter_mut().for_each(|section| section.folds = folds);
+        self
+    }
+
+    /// Several lines side by side, and after them `nodes` nodes that belong to no line. Returns where each line's nodes begin.
+    pub fn side_by_side(meshes: &[&Mesh], nodes: usize) -> (Mesh, Vec<usize>) {
+        let mut all = Mesh::of_parts(Vec::new());
+        let mut starts = Vec::new();
+        let special = meshes.iter().any(|mesh| !mesh.elasticities.is_empty());
+        for mesh in meshes {
+            if !all.elements.is_empty() {
+                all.add_gap();
+            }
+            let (first, section) = (all.elements.len(), all.sections.len());
+            starts.push(first);
+            let moved = |element: &Element| Element { start: all.length + element.start, section: section + element.section, ..*element };
+            let elements: Vec<Element> = mesh.elements.iter().map(moved).collect();
+            all.elements.extend(elements);
+            all.points.extend(mesh.points.iter().map(|point| first + point));
+            all.length += mesh.length;
+            all.sections.extend_from_slice(&mesh.sections);
+            if special {
+                let given = mesh.elasticities.iter().cloned().chain(std::iter::repeat(Elasticity::default()));
+                all.elasticities.extend(given.take(mesh.sections.len()));
+            }
+        }
+        (0..nodes).for_each(|_| all.add_gap());
+        (all, starts)
+    }
+
+    fn add_gap(&mut self) {
+        let section = self.sections.len().saturating_sub(1);
+        self.gaps.push(self.elements.len());
+        self.elements.push(Element { start: self.length, length: 0.0, section });
     }
 
     /// The mesh of parts, counted from the anchor.
@@ -158,8 +204,8 @@ impl Mesh {
             length: 0.0,
             elasticities: Vec::new(),
             points: Vec::new(),
+            gaps: Vec::new(),
             limp: false,
-            folds: false,
         };
         for (section, Part { properties, lengths, after_point }) in parts.into_iter().enumerate() {
             let kink = mesh.sections.last().is_some_and(|before| before.joins_with_a_kink(&properties));
@@ -246,7 +292,7 @@ impl Mesh {
 
     /// For each pair of neighbouring nodes: do they share their position?
     pub fn ties(&self) -> Vec<bool> {
-        self.elements.iter().map(Element::is_joint).collect()
+        self.elements.iter().enumerate().map(|(e, element)| element.is_joint() && !self.gaps.contains(&e)).collect()
     }
 
     /// Weight of the whole line [N] that forces are measured against: in water, every section by its absolute value, and at least

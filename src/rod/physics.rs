@@ -264,7 +264,7 @@ pub fn decisions(scene: &Scene, mesh: &Mesh, supports: &Supports) -> Vec<Decisio
         decide(
             "bending",
             mesh.bends(),
-            if mesh.folds {
+            if mesh.folds() {
                 "ei is 0, but the line is slack: its bights get what the mesh can show of them"
             } else {
                 "a line type has ei > 0"

@@ -6,7 +6,7 @@
 
 use crate::algebra::lanes::{Lanes, MOST_LANES, Real, padded};
 use crate::sea::clock::Clock;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use pulp::{Arch, Simd, WithSimd};
 
 /// Components per node: three of position, three of slope.
@@ -143,13 +143,15 @@ pub struct State {
     /// Places of the bed to which the line holds on by friction [m]: for element e, at e, two coordinates of each of its three Gauss
     /// points. Empty without friction.
     pub holds: Field,
+    /// Of each free body, the rotation from which its rotation vector counts. Empty without free bodies.
+    pub frames: Vec<Matrix3<f64>>,
 }
 
 impl State {
     /// A line of `nodes` nodes without friction, all zero, at time zero.
     pub fn new(nodes: usize) -> State {
         let zero = || Field::new(nodes);
-        State { clock: Clock::default(), u: zero(), v: zero(), a: zero(), holds: Field::new(0) }
+        State { clock: Clock::default(), u: zero(), v: zero(), a: zero(), holds: Field::new(0), frames: Vec::new() }
     }
 
     /// Copies the state of a line with as many nodes, without allocation.
@@ -159,6 +161,7 @@ impl State {
         self.v.copy_from(&from.v);
         self.a.copy_from(&from.a);
         self.holds.copy_from(&from.holds);
+        self.frames.clone_from(&from.frames);
     }
 }
 

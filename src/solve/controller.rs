@@ -1,7 +1,7 @@
 //! From one time to another: pick a step, try it, accept or shrink, land on the end exactly, give up honestly.
 
-use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
+use crate::rod::system::System;
 use crate::scene::types;
 use crate::sea::clock::Clock;
 use crate::solve::esdirk::{Esdirk, TR_BDF2};
@@ -118,6 +118,7 @@ impl Controller {
             let order = scheme.error_order();
             let guard = if scheme.is_l_stable() && !guarded { 0 } else { GUARDED_STEPS };
             self.next.holds.copy_from(&moment.state.holds);
+            self.next.frames.clone_from(&moment.state.frames);
             let outcome = scheme.step(bench, moment, h, &mut self.next).map(|error| error / demands.error);
             let resolved = |ratio: f64| ratio <= ACCEPTED || (!controlled || h <= demands.finest_step) && ratio.is_finite();
             match outcome {
@@ -130,6 +131,7 @@ impl Controller {
                     self.accept(moment, h, if count == 1.0 { until } else { moment.state.clock.now + h });
                     let State { u, v, holds, .. } = &mut moment.state;
                     bench.line.hold(u, v, holds);
+                    bench.line.recentre(&mut moment.state);
                     moment.guard = if controlled && ratio > 1.0 { guard } else { moment.guard.saturating_sub(1) };
                     moment.step = next_step(h, ratio, order).max(demands.finest_step.min(h)).min(demands.max_step);
                     halved = false;
@@ -195,8 +197,8 @@ fn next_step(h: f64, ratio: f64, order: f64) -> f64 {
 }
 
 /// A moment of a line, all zero and at rest.
-pub fn at_rest(line: &dyn Line, time: f64, step: f64) -> Moment {
-    let nodes = line.mesh().nodes();
+pub fn at_rest(line: &dyn System, time: f64, step: f64) -> Moment {
+    let nodes = line.nodes();
     let state = State { clock: Clock::at_rest(time), holds: Field::new(line.holding_nodes()), ..State::new(nodes) };
     Moment { state, earlier: Field::new(nodes), last_step: 0.0, step, tried: 0.0, guard: 0 }
 }

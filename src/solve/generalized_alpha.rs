@@ -55,8 +55,10 @@ impl Scheme for GeneralizedAlpha {
         blend(&mut self.between.v, ALPHA_F, &next.v, &start.v);
         blend(&mut self.between.a, ALPHA_M, &next.a, &start.a);
         self.between.holds.copy_from(&next.holds);
+        self.between.frames.clone_from(&next.frames);
         self.between.clock = from.clock_after((1.0 - ALPHA_F) * h);
         bench.prescribe_order(2, &mut self.between.a, self.between.clock);
+        bench.line.follow(&mut self.between);
         let weights = Weights { u: (1.0 - ALPHA_F) * BETA * h * h, v: (1.0 - ALPHA_F) * GAMMA * h, a: 1.0 - ALPHA_M };
         bench.solve(&weights, &mut self.between)?;
 

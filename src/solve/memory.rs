@@ -68,6 +68,8 @@ impl Shelf {
         state.v.copy_from(at.v);
         state.a.copy_from(at.a);
         state.holds.copy_from(at.holds);
+        state.frames.clear();
+        state.frames.extend_from_slice(at.frames);
         origin
     }
 }

@@ -61,7 +61,7 @@ pub fn mesh_of(scene: &Scene, line: &Line, shapes: &[Vec<Sample>], finer: f64) -
         }
         start = end;
     }
-    Mesh { elasticities, folds: is_slack(scene, line), ..Mesh::of_parts(parts) }
+    Mesh { elasticities, ..Mesh::of_parts(parts) }.with_folds(is_slack(scene, line))
 }
 
 /// Arc lengths from the anchor at which something acts on a line between its ends, rising.

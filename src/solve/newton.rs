@@ -7,7 +7,7 @@
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
 use crate::algebra::definite::is_positive_definite;
 use crate::rod::element::{Motion, Weights};
-use crate::rod::line::Line;
+use crate::rod::system::System;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::memory::{Memory, Shelf};
 use crate::solve::search;
@@ -91,10 +91,10 @@ const SLOW: f64 = 0.15;
 
 impl Newton {
     /// A solver for a line.
-    pub fn new(line: &dyn Line) -> Newton {
-        let nodes = line.mesh().nodes();
+    pub fn new(line: &dyn System) -> Newton {
+        let nodes = line.nodes();
         Newton {
-            matrix: BlockTridiagonal::new(line.mesh().ties()),
+            matrix: BlockTridiagonal::new(line.ties()),
             unknowns: Unknowns::new(line),
             memory: Memory::none(),
             at_hand: false,
@@ -128,11 +128,11 @@ impl Newton {
     }
 
     /// Makes the factor that the memory speaks of, where another is at hand.
-    fn remake(&mut self, line: &dyn Line) -> Result<(), Stall> {
+    fn remake(&mut self, line: &dyn System) -> Result<(), Stall> {
         if let (Some(origin), false) = (&self.memory.origin, self.at_hand) {
             line.tangent(&motion(&origin.state), &origin.weights, None, &mut self.matrix);
             self.effort.factorisations += 1;
-            self.unknowns.factor(line, &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
+            self.unknowns.factor(line, &motion(&origin.state), &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
             self.at_hand = true;
         }
         Ok(())
@@ -142,7 +142,7 @@ impl Newton {
     /// `across`: a unit vector along which nothing pulls at the line; motion along it does not count. Drops the factor at hand.
     pub fn is_definite(
         &mut self,
-        line: &dyn Line,
+        line: &dyn System,
         at: &Motion,
         weights: &Weights,
         geometric: Option<&[f64]>,
@@ -158,13 +158,13 @@ impl Newton {
     }
 
     /// Factors the tangent of a motion. One with a given geometric part is not used again by later stages.
-    pub fn factor(&mut self, line: &dyn Line, at: &Motion, weights: &Weights, geometric: Option<&[f64]>) -> Result<(), Stall> {
+    pub fn factor(&mut self, line: &dyn System, at: &Motion, weights: &Weights, geometric: Option<&[f64]>) -> Result<(), Stall> {
         self.at_hand = false;
         let left = self.memory.origin.take();
         self.shelf.put(left);
         line.tangent(at, weights, geometric, &mut self.matrix);
         self.effort.factorisations += 1;
-        self.unknowns.factor(line, &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
+        self.unknowns.factor(line, at, &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
         if geometric.is_none() {
             self.memory.origin = Some(self.shelf.origin(at, weights));
             self.at_hand = true;
@@ -174,19 +174,19 @@ impl Newton {
 
     /// Static stiffness of the line against its fairlead, ∂R/∂x condensed on the last node [N/m]; none where the line has no
     /// stiffness of its own (a heap of slack line). The memory stays as it is.
-    pub fn fairlead_stiffness(&mut self, line: &dyn Line, state: &State) -> Option<Matrix3<f64>> {
+    pub fn fairlead_stiffness(&mut self, line: &dyn System, state: &State) -> Option<Matrix3<f64>> {
         let memory = self.memory.clone();
         let stiffness = self.condense(line, state);
         self.recall(&memory);
         stiffness
     }
 
-    fn condense(&mut self, line: &dyn Line, state: &State) -> Option<Matrix3<f64>> {
+    fn condense(&mut self, line: &dyn System, state: &State) -> Option<Matrix3<f64>> {
         let weights = Weights { u: 1.0, v: 0.0, a: 0.0 };
         line.tangent(&motion(state), &weights, None, &mut self.matrix);
         let full = self.matrix.clone();
         self.factor(line, &motion(state), &weights, None).ok()?;
-        let (last, nodes) = (line.last(), line.mesh().nodes());
+        let (last, nodes) = (line.last(), line.nodes());
         let mut stiffness = Matrix3::zeros();
         for c in 0..3 {
             let mut x = vec![SVector::<f64, COMPONENTS>::zeros(); nodes];
@@ -210,12 +210,12 @@ impl Newton {
     }
 
     /// Solves with the factor at hand: b becomes the solution; prescribed unknowns stay zero.
-    pub fn solve_linear(&self, line: &dyn Line, b: &mut Field) {
+    pub fn solve_linear(&self, line: &dyn System, b: &mut Field) {
         self.unknowns.solve(line, b);
     }
 
     /// Solves a stage. `trial` holds the prediction, with the prescribed unknowns in place, and becomes the solution.
-    pub fn solve(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
+    pub fn solve(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
         if !self.memory.rough {
             self.start.copy_from(trial);
             let quick = self.iterate(line, weights, trial, criteria);
@@ -234,7 +234,7 @@ impl Newton {
     }
 
     /// Modified Newton: whole steps with an old factor, as long as they contract.
-    fn iterate(&mut self, line: &dyn Line, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
+    fn iterate(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
         if !self.memory.weights().is_some_and(fresh) || self.remake(line).is_err() {
             self.memory.rate = 1.0;
@@ -246,6 +246,7 @@ impl Newton {
             self.find_increment(line, trial);
             let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
             let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
+            line.follow(trial);
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
             }
@@ -272,7 +273,7 @@ impl Newton {
     /// Full Newton with a search along each step: slower, but it gets round the kinks where the line goes slack or lands.
     fn iterate_damped(
         &mut self,
-        line: &dyn Line,
+        line: &dyn System,
         weights: &Weights,
         trial: &mut State,
         criteria: &Criteria,
@@ -290,12 +291,14 @@ impl Newton {
             }
             if size < criteria.tolerance {
                 self.apply(weights, -1.0, trial);
+                line.follow(trial);
                 return Ok(());
             }
             let mut taken = 0.0;
             search::share(|share| {
                 if share != taken {
                     self.apply(weights, taken - share, trial);
+                    line.follow(trial);
                     taken = share;
                     line.residual(&motion(trial), &mut self.residual);
                 }
@@ -307,7 +310,7 @@ impl Newton {
     }
 
     /// J⁻¹ R at a state, with the factor at hand.
-    fn find_increment(&mut self, line: &dyn Line, trial: &State) {
+    fn find_increment(&mut self, line: &dyn System, trial: &State) {
         self.effort.iterations += 1;
         line.residual(&motion(trial), &mut self.increment);
         self.unknowns.solve(line, &mut self.increment);
@@ -363,5 +366,5 @@ fn without(matrix: &mut BlockTridiagonal<COMPONENTS>, across: &Vector3<f64>) {
 
 /// The motion of a state.
 pub fn motion(state: &State) -> Motion<'_> {
-    Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }
+    Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds, frames: &state.frames }
 }

@@ -1,8 +1,8 @@
 //! What every time integration scheme is made of: a step from one state to the next as a few stages, and an estimate of its error.
 
 use crate::rod::element::Weights;
-use crate::rod::line::Line;
 use crate::rod::state::{Field, State};
+use crate::rod::system::System;
 use crate::scene::types;
 use crate::sea::clock::Clock;
 use crate::solve::adams_moulton::AdamsMoulton;
@@ -39,8 +39,8 @@ impl Moment {
 
 /// What a step works with.
 pub struct Bench<'a> {
-    /// The line.
-    pub line: &'a dyn Line,
+    /// What moves.
+    pub line: &'a dyn System,
     /// The stage solver.
     pub newton: &'a mut Newton,
     /// The motion of the fairlead.
@@ -77,6 +77,9 @@ impl Bench<'_> {
             let at = anchor.at(clock.now);
             let State { u, v, a, .. } = state;
             [(u, at.position), (v, at.velocity), (a, at.acceleration)].into_iter().for_each(|(field, to)| self.put_anchor(field, &to));
+        }
+        if !matches!(self.stages, Stages::Linear(_)) {
+            self.line.follow(state);
         }
     }
 

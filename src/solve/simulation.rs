@@ -169,13 +169,13 @@ impl Simulation {
         let mut shapes = if automatic { meshing::catenaries(scene, line) } else { Vec::new() };
         let make = |shapes: &[Vec<Sample>], finer: f64, folds: bool| {
             let mesh = meshing::mesh_of(scene, line, shapes, finer);
-            let folds = folds && mesh.folds;
-            Simulation::with_mesh(scene, index, path, Mesh { folds, ..mesh })
+            let folds = folds && mesh.folds();
+            Simulation::with_mesh(scene, index, path, mesh.with_folds(folds))
         };
         let mut simulation = make(&shapes, finer, true)?;
         // What stiffens the bights of a slack line may keep statics from its end.
-        let folds = simulation.line.mesh().folds && simulation.settle(line.fairlead.into(), 0.0).is_ok();
-        if simulation.line.mesh().folds && !folds {
+        let folds = simulation.line.mesh().folds() && simulation.settle(line.fairlead.into(), 0.0).is_ok();
+        if simulation.line.mesh().folds() && !folds {
             simulation = make(&shapes, finer, false)?;
         }
         if !automatic {
@@ -194,7 +194,7 @@ impl Simulation {
         // Stiff elements in a tight bend lock a little: bights may need many.
         let (share, rounds) = if simulation.pushes() { (MESH_SHARE / 3.0, 7) } else { (MESH_SHARE, 3) };
         let allowed = |simulation: &Simulation, tension: f64| {
-            let range = if simulation.line.mesh().folds { simulation.range_of_tension() } else { 0.0 };
+            let range = if simulation.line.mesh().folds() { simulation.range_of_tension() } else { 0.0 };
             // A flow may pull at what its weight alone would leave slack.
             let of_bights = if tension < SLACK_END * range { BIGHT_SHARE * range } else { 0.0 };
             scene.solver.tolerance * of_bights.max(share * simulation.scale.tension(tension))
@@ -253,7 +253,7 @@ impl Simulation {
     fn with_mesh(scene: &Scene, index: usize, path: Option<&Ends>, mesh: Mesh) -> Result<Simulation, Error> {
         let solver = &scene.solver;
         let is_mixed = solver.scheme == Scheme::Cable1994;
-        let mesh = if is_mixed { Mesh { folds: false, ..mesh.without_joints() } } else { mesh };
+        let mesh = if is_mixed { mesh.without_joints().with_folds(false) } else { mesh };
         let supports = physics::supports(scene, &scene.lines[index], &mesh);
         let mixed = solver.uncontrolled_step().filter(|_| is_mixed).map(|step| {
             let line = setup::line(scene, &scene.lines[index], &mesh, supports.clone());
@@ -657,7 +657,7 @@ impl Simulation {
             jerk.data_mut().iter_mut().for_each(|x| *x /= moment.last_step);
         }
         let holds = tangent::hold_rate(self.line.as_ref(), state);
-        let rate = State { clock: state.clock, u: state.v.clone(), v: state.a.clone(), a: jerk, holds };
+        let rate = State { clock: state.clock, u: state.v.clone(), v: state.a.clone(), a: jerk, holds, frames: Vec::new() };
         let mut rates = outputs::along(self.line.as_ref(), state, &rate, 1.0, 1.0e-4);
         let velocity = state.v.position(self.line.last());
         (rates.time, rates.work) = (1.0, self.line.end_force(&motion(state)).dot(&velocity));

@@ -7,6 +7,7 @@ use crate::sea::clock::Clock;
 use crate::solve::memory::{Memory, Origin};
 use crate::solve::scheme::Moment;
 use crate::solve::simulation::LastStep;
+use nalgebra::Matrix3;
 use std::sync::Arc;
 
 /// Everything that the next step depends on.
@@ -65,8 +66,9 @@ impl Snapshot {
             u64::from(m.guard),
             last.substeps as u64,
             last.newton_iterations as u64,
+            m.state.frames.len() as u64,
         ];
-        out.reserve(8 * (words.len() + SCALARS + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())));
+        out.reserve(8 * (words.len() + SCALARS + 18 * m.state.frames.len() + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())));
         words.into_iter().for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
         let clock = m.state.clock;
         let steps = [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate];
@@ -74,12 +76,14 @@ impl Snapshot {
         let scalars: [f64; SCALARS - 6] = [self.work, self.anchor_work, self.error, last.error_estimate];
         write(&scalars, out);
         [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds].into_iter().for_each(|field| write_field(field, out));
+        m.state.frames.iter().for_each(|frame| write(frame.as_slice(), out));
         write(&self.tensions.now, out);
         write(&self.tensions.before, out);
         if let Some(origin) = &memory.origin {
             let Origin { weights, state } = origin.as_ref();
             write(&[weights.u, weights.v, weights.a, state.clock.now, state.clock.start], out);
             [&state.u, &state.v, &state.a, &state.holds].into_iter().for_each(|field| write_field(field, out));
+            state.frames.iter().for_each(|frame| write(frame.as_slice(), out));
         }
     }
 
@@ -90,9 +94,12 @@ impl Snapshot {
         let holding = usize::try_from(words.next()?).ok()?;
         let bits = words.next().filter(|bits| *bits < 1 << FLAGS)?;
         let [fresh, resting, planar, rough, kept] = std::array::from_fn(|flag: usize| bits >> flag & 1 == 1);
+        let guard = u32::try_from(words.next()?).ok()?;
+        let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
+        let bodies = usize::try_from(words.next()?).ok().filter(|bodies| *bodies <= nodes)?;
         let numbers = |fields: usize| nodes.checked_mul(fields)?.checked_add(holding)?.checked_mul(COMPONENTS);
-        let origin = if kept { numbers(3)?.checked_add(5)? } else { 0 };
-        let expected = numbers(4)?.checked_add(6 + SCALARS)?.checked_add(origin)?.checked_mul(8)?;
+        let origin = if kept { numbers(3)?.checked_add(5 + 9 * bodies)? } else { 0 };
+        let expected = numbers(4)?.checked_add(7 + SCALARS + 9 * bodies)?.checked_add(origin)?.checked_mul(8)?;
         let per_node = match bytes.len().checked_sub(expected)? {
             0 => 0,
             more if more == 4 * 8 * nodes => 2,
@@ -101,25 +108,24 @@ impl Snapshot {
         if nodes < 2 {
             return None;
         }
-        let guard = u32::try_from(words.next()?).ok()?;
-        let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
         let clock = Clock { now: number()?, start: number()? };
         let (last_step, step, tried, rate) = (number()?, number()?, number()?, number()?);
         let (work, anchor_work, error, error_estimate) = (number()?, number()?, number()?, number()?);
         let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
         let (earlier, holds) = (field(nodes, &mut number)?, field(holding, &mut number)?);
+        let frames = turns(bodies, &mut number)?;
         let mut list = || (0..per_node * nodes).map(|_| number()).collect::<Option<Vec<f64>>>();
         let tensions = Tensions { now: list()?, before: list()? };
         let mut origin = || {
             let weights = Weights { u: number()?, v: number()?, a: number()? };
             let clock = Clock { now: number()?, start: number()? };
             let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
-            Some(Arc::new(Origin { weights, state: State { clock, u, v, a, holds: field(holding, &mut number)? } }))
+            Some(Arc::new(Origin { weights, state: State { clock, u, v, a, holds: field(holding, &mut number)?, frames: turns(bodies, &mut number)? } }))
         };
         let origin = if kept { Some(origin()?) } else { None };
         Some(Snapshot {
-            moment: Moment { state: State { clock, u, v, a, holds }, earlier, last_step, step, tried, guard },
+            moment: Moment { state: State { clock, u, v, a, holds, frames }, earlier, last_step, step, tried, guard },
             memory: Memory { origin, rate, rough },
             tensions,
             work,
@@ -144,6 +150,15 @@ fn write(numbers: &[f64], out: &mut Vec<u8>) {
 
 fn write_field(field: &Field, out: &mut Vec<u8>) {
     (0..COMPONENTS).for_each(|c| write(field.component(c), out));
+}
+
+/// Rotations of the numbers that come next.
+fn turns(count: usize, number: &mut impl FnMut() -> Option<f64>) -> Option<Vec<Matrix3<f64>>> {
+    let mut turns = vec![Matrix3::zeros(); count];
+    for x in turns.iter_mut().flat_map(|turn| turn.as_mut_slice()) {
+        *x = number()?;
+    }
+    Some(turns)
 }
 
 /// A field of the numbers that come next.

@@ -6,8 +6,8 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::rod::element::Weights;
-use crate::rod::line::Line;
 use crate::rod::state::{COMPONENTS, Field, State};
+use crate::rod::system::System;
 use crate::solve::newton::{Stall, motion};
 use crate::solve::unknowns::Unknowns;
 use nalgebra::SVector;
@@ -37,15 +37,15 @@ const SHARE: f64 = 1.0e-6;
 
 impl LinearStage {
     /// The linearisation of a stage.
-    pub fn new(line: &dyn Line, stage: &SolvedStage) -> Result<LinearStage, Stall> {
+    pub fn new(line: &dyn System, stage: &SolvedStage) -> Result<LinearStage, Stall> {
         let matrix = |u, v, a| {
-            let mut matrix = BlockTridiagonal::new(line.mesh().ties());
+            let mut matrix = BlockTridiagonal::new(line.ties());
             line.tangent(&motion(&stage.state), &Weights { u, v, a }, None, &mut matrix);
             matrix
         };
         let mut whole = matrix(stage.weights.u, stage.weights.v, stage.weights.a);
         let mut unknowns = Unknowns::new(line);
-        unknowns.factor(line, &mut whole).map_err(|singular| Stall::Singular { node: singular.index })?;
+        unknowns.factor(line, &motion(&stage.state), &mut whole).map_err(|singular| Stall::Singular { node: singular.index })?;
         Ok(LinearStage {
             weights: stage.weights,
             by_position: matrix(1.0, 0.0, 0.0),
@@ -57,7 +57,7 @@ impl LinearStage {
     }
 
     /// Solves the stage for changes: `trial` holds their prediction, with the prescribed ones in place, and becomes the solution.
-    pub fn solve(&self, line: &dyn Line, trial: &mut State) {
+    pub fn solve(&self, line: &dyn System, trial: &mut State) {
         let nodes = trial.u.nodes();
         let mut force = vec![SVector::<f64, COMPONENTS>::zeros(); nodes];
         let mut part = force.clone();
@@ -91,7 +91,7 @@ impl LinearStage {
 }
 
 /// Change of the places that friction holds on to after a step to `end` from places `before`, of which `change` holds the changes.
-pub fn hold(line: &dyn Line, end: &State, before: &Field, change: &mut State) {
+pub fn hold(line: &dyn System, end: &State, before: &Field, change: &mut State) {
     if line.holding_nodes() == 0 {
         return;
     }
@@ -110,7 +110,7 @@ pub fn hold(line: &dyn Line, end: &State, before: &Field, change: &mut State) {
 }
 
 /// Rate [m/s] at which the places that friction holds on to follow a moving line.
-pub fn hold_rate(line: &dyn Line, state: &State) -> Field {
+pub fn hold_rate(line: &dyn System, state: &State) -> Field {
     let (mut holds, mut place) = (state.holds.clone(), state.u.clone());
     place.add(SHARE, &state.v);
     line.hold(&place, &state.v, &mut holds);

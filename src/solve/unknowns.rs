@@ -1,8 +1,10 @@
 //! The free unknowns of a line and the factor of their matrix: all six of a node, or the four in the plane of a planar line.
 
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor, Singular};
-use crate::rod::line::Line;
+use crate::rod::element::Motion;
 use crate::rod::state::{COMPONENTS, Field};
+use crate::rod::system::System;
+use crate::solve::condensed::Condensed;
 
 /// Components of a node in the x–z plane.
 const IN_PLANE: [usize; 4] = [0, 2, 3, 5];
@@ -13,32 +15,37 @@ pub enum Unknowns {
     Spatial(Factor<COMPONENTS>),
     /// Of those in the x–z plane.
     Planar(Factor<4>),
+    /// Of all components of lines that hang on bodies and points, and of these.
+    Network(Box<Condensed>),
 }
 
 impl Unknowns {
     /// Room for the factor of a line.
-    pub fn new(line: &dyn Line) -> Unknowns {
-        let nodes = line.mesh().nodes();
-        if line.is_planar() {
+    pub fn new(line: &dyn System) -> Unknowns {
+        let nodes = line.nodes();
+        if let Some(links) = line.links() {
+            Unknowns::Network(Box::new(Condensed::new(nodes, links)))
+        } else if line.is_planar() {
             Unknowns::Planar(Factor::new(nodes, IN_PLANE))
         } else {
             Unknowns::Spatial(Factor::new(nodes, std::array::from_fn(|c| c)))
         }
     }
 
-    /// Factors a matrix; prescribed unknowns are taken out of it.
-    pub fn factor(&mut self, line: &dyn Line, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
+    /// Factors the matrix of a motion; prescribed unknowns are taken out of it.
+    pub fn factor(&mut self, line: &dyn System, at: &Motion, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
         for &(node, component) in line.fixed() {
             matrix.fix(node, component);
         }
         match self {
             Unknowns::Spatial(factor) => factor.factor(matrix),
             Unknowns::Planar(factor) => factor.factor(matrix),
+            Unknowns::Network(factor) => factor.factor(line, at, matrix),
         }
     }
 
     /// Solves with the factor: b becomes the solution; prescribed unknowns, and those across the plane, are zero in it.
-    pub fn solve(&self, line: &dyn Line, b: &mut Field) {
+    pub fn solve(&self, line: &dyn System, b: &mut Field) {
         for &(node, component) in line.fixed() {
             b.component_mut(component)[node] = 0.0;
         }
@@ -50,6 +57,7 @@ impl Unknowns {
                 b.component_mut(4).fill(0.0);
                 factor.solve(b.data_mut(), stride);
             }
+            Unknowns::Network(factor) => factor.solve(b),
         }
     }
 }

@@ -74,6 +74,7 @@ pub fn material(ea: f64, mass: f64, weight: f64) -> Properties {
         added_normal: 0.0,
         added_tangential: 0.0,
         seabed_stiffness: None,
+        folds: false,
     }
 }
 

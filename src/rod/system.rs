@@ -1,0 +1,69 @@
+//! What a time step needs of what moves: the seam between the discrete line, or a network of lines, bodies and points, and the schemes.
+
+use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::rod::element::{Motion, Weights};
+use crate::rod::state::{Field, State};
+use nalgebra::Matrix3x6;
+
+/// Nodes of six unknowns each, their residual and its tangent.
+pub trait System: Send + Sync {
+    /// Number of nodes.
+    fn nodes(&self) -> usize;
+    /// For each pair of neighbouring nodes: do they share their position?
+    fn ties(&self) -> Vec<bool>;
+    /// Number of the last node; of a line, its fairlead.
+    fn last(&self) -> usize {
+        self.nodes() - 1
+    }
+    /// Unknowns that are prescribed, as (node, component).
+    fn fixed(&self) -> &[(usize, usize)];
+    /// Whether it knows motion in the x–z plane alone.
+    fn is_planar(&self) -> bool;
+    /// Sets positions (order 0), velocities (1) or accelerations (2) of nodes that are moved from outside, or along locked axes, to what they are
+    /// at a time.
+    fn place(&self, order: usize, field: &mut Field, time: f64);
+    /// Residual R [N, N·m]: the force to be applied from outside for this motion. At tied nodes it stands at the second.
+    fn residual(&self, at: &Motion, out: &mut Field);
+    /// c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a. `geometric`, where given, is the tension of the geometric part at each Gauss point [N].
+    fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>);
+    /// M x: the inertia (and of the water moved with it) for accelerations x, everything else at rest [N, N·m].
+    fn inertia(&self, at: &Motion, x: &Field, out: &mut Field);
+    /// Nodes of the field of places to which lines hold on by friction; 0 without friction.
+    fn holding_nodes(&self) -> usize;
+    /// Moves the places of the bed to which lines hold on after a step to these positions and velocities.
+    fn hold(&self, u: &Field, v: &Field, holds: &mut Field);
+    /// The nodes that hang on bodies and points; none: every node is free or fixed.
+    fn links(&self) -> Option<&Links> {
+        None
+    }
+    /// Moves the nodes that hang on bodies and points with these.
+    fn follow(&self, _: &mut State) {}
+    /// Lets the rotation vectors of free bodies count from where they are.
+    fn recentre(&self, _: &mut State) {}
+    /// Displacement of each hanging node per unit of its master's six unknowns.
+    fn levers(&self, _: &Motion, _: &mut [Matrix3x6<f64>]) {}
+}
+
+/// A node whose position is that of a place of a body, or of a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// The node, an end of a line.
+    pub node: usize,
+    /// The node of its body or point: number among `Links::masters`.
+    pub master: usize,
+    /// The line, as number of its range.
+    pub line: usize,
+    /// First (0) or second (1) hanging end of that line.
+    pub slot: usize,
+}
+
+/// Which nodes hang on which.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Links {
+    /// Hanging nodes.
+    pub links: Vec<Link>,
+    /// Nodes of bodies and points.
+    pub masters: Vec<usize>,
+    /// First node of each line and the one behind its last.
+    pub ranges: Vec<(usize, usize)>,
+}

@@ -1,0 +1,218 @@
+//! The factor of a network: lines that hang on bodies and points, and these.
+//!
+//! ```text
+//! x_e = B y,   S = A_yy + Bᵀ (A_ee - A_ef A_ff⁻¹ A_fe) B,   S y = b_y + Bᵀ (b_e - A_ef A_ff⁻¹ b_f),   x_f = A_ff⁻¹ (b_f - A_fe x_e)
+//! ```
+//!
+//! y unknowns of bodies and points (masters), x_e positions of the ends that hang on them, x_f all else of the lines, B levers. With the
+//! ends fixed the lines do not know of each other, so that A_ff is block-tridiagonal in one piece, and the columns A_ff⁻¹ A_fe of all lines
+//! are solved for at once: three for their first hanging ends, three for their second.
+
+use crate::algebra::block_tridiagonal::{Block, BlockTridiagonal, Factor, Singular};
+use crate::rod::element::Motion;
+use crate::rod::state::{COMPONENTS, Field};
+use crate::rod::system::{Links, System};
+use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix3x6, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};
+
+/// A row of blocks of a hanging end.
+type Row = SMatrix<f64, 3, 6>;
+
+/// What couples a hanging end with the unknowns beside it.
+#[derive(Debug, Clone, Default)]
+struct Coupling {
+    /// A_ee.
+    own: nalgebra::Matrix3<f64>,
+    /// (node, its couplings): of the end itself, where only slopes count, and of its neighbour.
+    row: Vec<(usize, Row)>,
+}
+
+/// The factor.
+#[derive(Clone)]
+pub struct Condensed {
+    links: Links,
+    factor: Factor<COMPONENTS>,
+    couplings: Vec<Coupling>,
+    levers: Vec<Matrix3x6<f64>>,
+    /// A_ff⁻¹ A_fe, a column each: components of the first hanging end of every line, then of the second.
+    columns: Vec<Field>,
+    condensed: DMatrix<f64>,
+    solver: Option<LU<f64, Dyn, Dyn>>,
+}
+
+impl Condensed {
+    /// Room for the factor of a network of so many nodes.
+    pub fn new(nodes: usize, links: &Links) -> Condensed {
+        let slots = links.links.iter().map(|link| link.slot + 1).max().unwrap_or(0);
+        let size = COMPONENTS * links.masters.len();
+        Condensed {
+            links: links.clone(),
+            factor: Factor::new(nodes, std::array::from_fn(|c| c)),
+            couplings: vec![Coupling::default(); links.links.len()],
+            levers: vec![Matrix3x6::zeros(); links.links.len()],
+            columns: vec![Field::new(nodes); 3 * slots],
+            condensed: DMatrix::zeros(size, size),
+            solver: None,
+        }
+    }
+
+    /// S: stiffness of the masters against their unknowns, all else following, where the matrix is that of a static tangent.
+    pub fn stiffness(&self) -> &DMatrix<f64> {
+        &self.condensed
+    }
+
+    /// The smallest eigenvalue of the symmetric part of D S D, D a diagonal that makes entries of one size, and its direction in the unknowns.
+    pub fn softest(&self, scales: &DVector<f64>) -> (f64, DVector<f64>) {
+        let scaled = DMatrix::from_fn(scales.len(), scales.len(), |row, column| {
+            0.5 * (self.condensed[(row, column)] + self.condensed[(column, row)]) * scales[row] * scales[column]
+        });
+        let eigen = SymmetricEigen::new(scaled);
+        let (index, value) = eigen.eigenvalues.iter().enumerate().fold((0, f64::INFINITY), |least, (index, value)| {
+            if *value < least.1 { (index, *value) } else { least }
+        });
+        let direction = eigen.eigenvectors.column(index.min(scales.len() - 1)).component_mul(scales);
+        (value, direction)
+    }
+
+    /// Adds to the diagonal of S and factors it anew; false where that fails.
+    pub fn stiffen(&mut self, by: &DVector<f64>) -> bool {
+        let mut stiffened = self.condensed.clone();
+        (0..by.len()).for_each(|k| stiffened[(k, k)] += by[k]);
+        let solver = stiffened.lu();
+        let fine = solver.is_invertible();
+        self.solver = Some(solver);
+        fine
+    }
+
+    /// Factors the matrix of a motion, of which prescribed unknowns have been taken out.
+    pub fn factor(&mut self, system: &dyn System, at: &Motion, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
+        system.levers(at, &mut self.levers);
+        let size = self.condensed.nrows();
+        self.condensed.fill(0.0);
+        for (number, &node) in self.links.masters.iter().enumerate() {
+            self.condensed.fixed_view_mut::<6, 6>(6 * number, 6 * number).copy_from(&matrix.diagonal[node]);
+            (0..COMPONENTS).for_each(|component| matrix.fix(node, component));
+        }
+        self.columns.iter_mut().for_each(|column| column.fill(0.0));
+        for (link, coupling) in self.links.links.iter().zip(&mut self.couplings) {
+            let node = link.node;
+            let (first, end) = self.links.ranges[link.line];
+            let own: Block<6> = matrix.diagonal[node];
+            coupling.own = own.fixed_view::<3, 3>(0, 0).into();
+            coupling.row.clear();
+            let mut slopes: Row = own.fixed_rows::<3>(0).into();
+            slopes.fixed_columns_mut::<3>(0).fill(0.0);
+            coupling.row.push((node, slopes));
+            let add = |columns: &mut [Field], at: usize, block: SMatrix<f64, 6, 3>, from: usize| {
+                for c in 0..3 {
+                    let column = &mut columns[3 * link.slot + c];
+                    (from..COMPONENTS).for_each(|r| column.component_mut(r)[at] += block[(r, c)]);
+                }
+            };
+            add(&mut self.columns, node, own.fixed_columns::<3>(0).into(), 3);
+            if node > first {
+                coupling.row.push((node - 1, matrix.lower[node - 1].fixed_rows::<3>(0).into()));
+                add(&mut self.columns, node - 1, matrix.upper[node - 1].fixed_columns::<3>(0).into(), 0);
+            }
+            if node + 1 < end {
+                coupling.row.push((node + 1, matrix.upper[node].fixed_rows::<3>(0).into()));
+                add(&mut self.columns, node + 1, matrix.lower[node].fixed_columns::<3>(0).into(), 0);
+            }
+        }
+        for link in &self.links.links {
+            (0..3).for_each(|component| matrix.fix(link.node, component));
+        }
+        // The ends take their own part in the row of another end beside them, and no right-hand side.
+        let fixed = system.fixed();
+        for column in &mut self.columns {
+            fixed.iter().for_each(|&(node, component)| column.component_mut(component)[node] = 0.0);
+            for link in &self.links.links {
+                column.set_position(link.node, &Vector3::zeros());
+            }
+        }
+        self.factor.factor(matrix)?;
+        for column in &mut self.columns {
+            let stride = column.stride();
+            self.factor.solve(column.data_mut(), stride);
+        }
+        for (one, link) in self.links.links.iter().enumerate() {
+            for (other, beside) in self.links.links.iter().enumerate().filter(|(_, beside)| beside.line == link.line) {
+                let mut block = if one == other { self.couplings[one].own } else { nalgebra::Matrix3::zeros() };
+                for (node, row) in &self.couplings[one].row {
+                    if *node == beside.node && one != other {
+                        block += row.fixed_columns::<3>(0);
+                    }
+                    for c in 0..3 {
+                        let column = &self.columns[3 * beside.slot + c];
+                        let x = Vector6::from_fn(|r, _| column.component(r)[*node]);
+                        block.set_column(c, &(block.column(c) - row * x));
+                    }
+                }
+                let add: Matrix6<f64> = self.levers[one].tr_mul(&(block * self.levers[other]));
+                let (row, column) = (6 * link.master, 6 * beside.master);
+                let mut view = self.condensed.fixed_view_mut::<6, 6>(row, column);
+                view += add;
+            }
+        }
+        let mut solved = self.condensed.clone();
+        for &(node, component) in fixed {
+            if let Some(master) = self.links.masters.iter().position(|master| *master == node) {
+                let k = 6 * master + component;
+                solved.row_mut(k).fill(0.0);
+                solved.column_mut(k).fill(0.0);
+                solved[(k, k)] = 1.0;
+            }
+        }
+        let solver = solved.clone().lu();
+        self.condensed = solved;
+        let fine = size == 0 || solver.is_invertible() && self.condensed.iter().all(|x| x.is_finite());
+        self.solver = Some(solver);
+        if fine { Ok(()) } else { Err(Singular { index: self.links.masters.first().copied().unwrap_or(0) }) }
+    }
+
+    /// Solves with the factor: b becomes the solution.
+    pub fn solve(&self, b: &mut Field) {
+        let mut right = DVector::zeros(self.condensed.nrows());
+        for (number, &node) in self.links.masters.iter().enumerate() {
+            for c in 0..COMPONENTS {
+                right[6 * number + c] = b.component(c)[node];
+                b.component_mut(c)[node] = 0.0;
+            }
+        }
+        for (link, lever) in self.links.links.iter().zip(&self.levers) {
+            let mut part = right.fixed_rows_mut::<6>(6 * link.master);
+            part += lever.tr_mul(&b.position(link.node));
+            b.set_position(link.node, &Vector3::zeros());
+        }
+        let stride = b.stride();
+        self.factor.solve(b.data_mut(), stride);
+        for (number, link) in self.links.links.iter().enumerate() {
+            let mut force = Vector3::zeros();
+            for (node, row) in &self.couplings[number].row {
+                force += row * Vector6::from_fn(|r, _| b.component(r)[*node]);
+            }
+            let mut part = right.fixed_rows_mut::<6>(6 * link.master);
+            part -= self.levers[number].tr_mul(&force);
+        }
+        if let Some(solver) = &self.solver {
+            solver.solve_mut(&mut right);
+        }
+        for (number, link) in self.links.links.iter().enumerate() {
+            let moved: Vector3<f64> = self.levers[number] * right.fixed_rows::<6>(6 * link.master);
+            let (first, end) = self.links.ranges[link.line];
+            for c in 0..3 {
+                let column = &self.columns[3 * link.slot + c];
+                for r in 0..COMPONENTS {
+                    let from = &column.component(r)[first..end];
+                    b.component_mut(r)[first..end].iter_mut().zip(from).for_each(|(x, y)| *x -= moved[c] * y);
+                }
+            }
+        }
+        for (number, link) in self.links.links.iter().enumerate() {
+            let moved: Vector3<f64> = self.levers[number] * right.fixed_rows::<6>(6 * link.master);
+            b.set_position(link.node, &moved);
+        }
+        for (number, &node) in self.links.masters.iter().enumerate() {
+            (0..COMPONENTS).for_each(|c| b.component_mut(c)[node] = right[6 * number + c]);
+        }
+    }
+}

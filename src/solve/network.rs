@@ -1,0 +1,206 @@
+//! Lines that hang on free bodies and points, as one system: a rod of all their elements side by side, and behind it a node for each body and point.
+//!
+//! An end that hangs on a body goes with it,
+//!
+//! ```text
+//! r = X + R a,   ṙ = V + ω × R a,   r̈ = A + α × R a + ω × (ω × R a),   δr = δX + J δϑ × R a = B (δX, δϑ)
+//! ```
+//!
+//! and its force reaches the body as Bᵀ f. Ends on what is driven are prescribed.
+
+use crate::algebra::block_tridiagonal::BlockTridiagonal;
+use crate::algebra::rotation;
+use crate::rod::element::{Motion, Weights};
+use crate::rod::line::Line;
+use crate::rod::rigid::Rigid;
+use crate::rod::state::{Field, State};
+use crate::rod::system::{Links, System};
+use crate::solve::motion::Path;
+use nalgebra::{Matrix3x6, Vector3};
+use std::ops::AddAssign;
+use std::sync::Mutex;
+
+/// The network.
+pub struct Network {
+    /// All lines side by side, and nodes of bodies and points.
+    pub rod: Box<dyn Line>,
+    /// Free bodies.
+    pub bodies: Vec<Rigid>,
+    /// What hangs on what.
+    pub links: Links,
+    /// Of each link, its place in the axes of its body; none: on a point.
+    pub arms: Vec<Option<Vector3<f64>>>,
+    /// Ends that are driven, and their paths.
+    pub driven: Vec<(usize, Path)>,
+    /// Prescribed unknowns.
+    pub fixed: Vec<(usize, usize)>,
+    /// Room for forces of the tangent.
+    room: Mutex<Field>,
+}
+
+impl Network {
+    /// A network; `driven` ends are fixed for the solver.
+    pub fn new(
+        rod: Box<dyn Line>,
+        bodies: Vec<Rigid>,
+        links: Links,
+        arms: Vec<Option<Vector3<f64>>>,
+        driven: Vec<(usize, Path)>,
+        slopes_of: &[usize],
+    ) -> Network {
+        let mut fixed = rod.fixed().to_vec();
+        fixed.extend(driven.iter().flat_map(|(node, _)| (0..3).map(|c| (*node, c))));
+        fixed.extend(slopes_of.iter().flat_map(|node| (3..6).map(|c| (*node, c))));
+        fixed.sort_unstable();
+        fixed.dedup();
+        let room = Mutex::new(Field::new(rod.nodes()));
+        Network { rod, bodies, links, arms, driven, fixed, room }
+    }
+
+    fn body_at(&self, node: usize) -> Option<&Rigid> {
+        self.bodies.iter().find(|body| body.node == node)
+    }
+
+    /// Forces that reach bodies and points at a motion: the residual with that of hanging ends taken to their masters.
+    pub fn gathered(&self, at: &Motion, levers: &mut [Matrix3x6<f64>], out: &mut Field) {
+        self.residual(at, out);
+        self.levers(at, levers);
+        for (link, lever) in self.links.links.iter().zip(levers.iter()) {
+            let six = lever.tr_mul(&out.position(link.node));
+            let master = self.links.masters[link.master];
+            out.set_position(master, &(out.position(master) + six.fixed_rows::<3>(0)));
+            out.set_slope(master, &(out.slope(master) + six.fixed_rows::<3>(3)));
+            out.set_position(link.node, &Vector3::zeros());
+        }
+        self.fixed.iter().for_each(|&(node, component)| out.component_mut(component)[node] = 0.0);
+    }
+}
+
+impl System for Network {
+    fn nodes(&self) -> usize {
+        self.rod.nodes()
+    }
+
+    fn ties(&self) -> Vec<bool> {
+        self.rod.ties()
+    }
+
+    fn fixed(&self) -> &[(usize, usize)] {
+        &self.fixed
+    }
+
+    fn is_planar(&self) -> bool {
+        false
+    }
+
+    fn place(&self, order: usize, field: &mut Field, time: f64) {
+        for (node, path) in &self.driven {
+            let at = path.at(time);
+            field.set_position(*node, &[at.position, at.velocity, at.acceleration][order]);
+        }
+        self.rod.place(order, field, time);
+    }
+
+    fn residual(&self, at: &Motion, out: &mut Field) {
+        self.rod.residual(at, out);
+        for body in &self.bodies {
+            let [force, moment] = body.residual(at);
+            out.set_position(body.node, &force);
+            out.set_slope(body.node, &moment);
+        }
+    }
+
+    fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
+        self.rod.tangent(at, weights, geometric, matrix);
+        for body in &self.bodies {
+            matrix.diagonal[body.node] = body.tangent(at, weights);
+        }
+        if weights.u == 0.0 || self.bodies.is_empty() {
+            return;
+        }
+        // The moment of an end force turns with the body.
+        let mut room = self.room.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        self.rod.residual(at, &mut room);
+        for (link, arm) in self.links.links.iter().zip(&self.arms) {
+            let (Some(arm), Some(body)) = (arm, self.body_at(self.links.masters[link.master])) else { continue };
+            let lever = body.motion(at).rotation * arm;
+            let turned = rotation::cross(&room.position(link.node)) * rotation::cross(&lever) * weights.u;
+            matrix.diagonal[body.node].fixed_view_mut::<3, 3>(3, 3).add_assign(turned);
+        }
+    }
+
+    fn inertia(&self, at: &Motion, x: &Field, out: &mut Field) {
+        self.rod.inertia(at, x, out);
+        for body in &self.bodies {
+            let (position, turn) = (x.position(body.node), x.slope(body.node));
+            let mut six = nalgebra::Vector6::zeros();
+            six.fixed_rows_mut::<3>(0).copy_from(&position);
+            six.fixed_rows_mut::<3>(3).copy_from(&turn);
+            let force = body.inertia(at) * six;
+            out.set_position(body.node, &force.fixed_rows::<3>(0).into());
+            out.set_slope(body.node, &force.fixed_rows::<3>(3).into());
+        }
+    }
+
+    fn holding_nodes(&self) -> usize {
+        self.rod.holding_nodes()
+    }
+
+    fn hold(&self, u: &Field, v: &Field, holds: &mut Field) {
+        self.rod.hold(u, v, holds);
+    }
+
+    fn links(&self) -> Option<&Links> {
+        Some(&self.links)
+    }
+
+    fn follow(&self, state: &mut State) {
+        for (link, arm) in self.links.links.iter().zip(&self.arms) {
+            let master = self.links.masters[link.master];
+            let (position, velocity, acceleration) = match (arm, self.body_at(master)) {
+                (Some(arm), Some(body)) => {
+                    let State { clock, u, v, a, holds, frames } = &*state;
+                    let motion = body.motion(&Motion { clock: *clock, u, v, a, holds, frames });
+                    let lever = motion.rotation * arm;
+                    let (velocity, acceleration) = motion.at(&lever);
+                    (motion.position + lever, velocity, acceleration)
+                }
+                _ => (state.u.position(master), state.v.position(master), state.a.position(master)),
+            };
+            state.u.set_position(link.node, &position);
+            state.v.set_position(link.node, &velocity);
+            state.a.set_position(link.node, &acceleration);
+        }
+    }
+
+    fn recentre(&self, state: &mut State) {
+        for body in &self.bodies {
+            let State { clock, u, v, a, holds, frames } = &*state;
+            let motion = body.motion(&Motion { clock: *clock, u, v, a, holds, frames });
+            if let Some(frame) = state.frames.get_mut(body.frame) {
+                *frame = orthonormal(&motion.rotation);
+            }
+            state.u.set_slope(body.node, &Vector3::zeros());
+            state.v.set_slope(body.node, &motion.omega);
+            state.a.set_slope(body.node, &motion.alpha);
+        }
+    }
+
+    fn levers(&self, at: &Motion, out: &mut [Matrix3x6<f64>]) {
+        for ((link, arm), lever) in self.links.links.iter().zip(&self.arms).zip(out) {
+            lever.fill(0.0);
+            lever.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+            if let (Some(arm), Some(body)) = (arm, self.body_at(self.links.masters[link.master])) {
+                let turned = body.motion(at).rotation * arm;
+                let by_turn = -rotation::cross(&turned) * rotation::jacobian(&at.u.slope(body.node));
+                lever.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_turn);
+            }
+        }
+    }
+}
+
+/// The rotation nearest to a matrix that is nearly one.
+fn orthonormal(r: &nalgebra::Matrix3<f64>) -> nalgebra::Matrix3<f64> {
+    // One step of Newton's method for the polar factor: what is off by ε is off by ε² after it.
+    r * 1.5 - r * r.tr_mul(r) * 0.5
+}
