@@ -77,6 +77,9 @@ pub enum Error {
     /// A time step could not be taken; the line stands as it was before.
     #[error(transparent)]
     Step(Box<Stuck>),
+    /// Lines that hang on free bodies and points have no equilibrium, or could not take a step.
+    #[error(transparent)]
+    Network(Box<Adrift>),
     /// The user stopped the run; what was written is complete up to this time.
     #[error("stopped by the user at t = {time} s; all rows written are complete")]
     Interrupted {
@@ -95,7 +98,7 @@ impl Error {
             | Error::Set { .. }
             | Error::Value { .. }
             | Error::Reach(_) => 2,
-            Error::Statics(_) | Error::Step(_) => 3,
+            Error::Statics(_) | Error::Step(_) | Error::Network(_) => 3,
             Error::Interrupted { .. } => 130,
         }
     }
@@ -336,6 +339,50 @@ pub struct Stuck {
     pub fairlead_speed: f64,
     /// Time of the last good state [s].
     pub last_good_time: f64,
+}
+
+/// A free body or point that cannot go on.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{what}, t = {time:.4} s: {trouble}")]
+pub struct Adrift {
+    /// What it is: `point "delta"`.
+    pub what: String,
+    /// Time of the attempt [s].
+    pub time: f64,
+    /// What is wrong.
+    pub trouble: Trouble,
+}
+
+/// What is wrong with a free body or point.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Trouble {
+    /// No equilibrium was found.
+    #[error(
+        "no static equilibrium after {iterations} iterations: a force of {residual:.3e} N is not balanced (allowed: {allowed:.1e} N). Check \
+         weights, buoyancies and lengths of lines there, and give a position nearer to the equilibrium"
+    )]
+    Unbalanced {
+        /// Iterations done.
+        iterations: usize,
+        /// Force out of balance [N].
+        residual: f64,
+        /// What counts as balanced [N].
+        allowed: f64,
+    },
+    /// In balance, but the least disturbance would make it leave.
+    #[error("its equilibrium is not stable, and none beside it was found; ballast it lower, or hold it by lines from several sides")]
+    Unstable,
+    /// A time step could not be taken.
+    #[error(
+        "no step of {step:.0e} s can be taken; it stands as it was at t = {last_good_time:.4} s. Look for a mass or inertia that is very small \
+         for the lines on it, or a jump in the motion"
+    )]
+    Stuck {
+        /// Smallest step tried [s].
+        step: f64,
+        /// Time of the last good state [s].
+        last_good_time: f64,
+    },
 }
 
 /// Part of a line, in a naval architect's words.

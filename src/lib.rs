@@ -106,6 +106,7 @@ pub mod solve {
     pub mod esdirk;
     pub mod fleet;
     pub mod generalized_alpha;
+    pub mod group;
     pub mod line_state;
     pub mod memory;
     pub mod meshing;
@@ -114,6 +115,7 @@ pub mod solve {
     pub mod network;
     pub mod newton;
     pub mod outputs;
+    pub mod partition;
     pub mod plane;
     pub mod pose;
     pub mod relaxation;

@@ -60,7 +60,7 @@ pub struct Part {
 }
 
 /// What an element is made of, per unstretched length.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Properties {
     /// EA [N].
     pub ea: f64,
@@ -185,6 +185,11 @@ impl Mesh {
                 let given = mesh.elasticities.iter().cloned().chain(std::iter::repeat(Elasticity::default()));
                 all.elasticities.extend(given.take(mesh.sections.len()));
             }
+        }
+        if meshes.is_empty() {
+            // Bodies alone: a material that nothing is made of.
+            let (diameter, stiffness) = (1.0, Some(1.0));
+            all.sections.push(Properties { diameter, seabed_stiffness: stiffness, ..Properties::default() });
         }
         (0..nodes).for_each(|_| all.add_gap());
         (all, starts)

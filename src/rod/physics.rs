@@ -203,7 +203,8 @@ const STEEL: f64 = 7850.0;
 /// Smallest diameter of a body [m].
 const SMALLEST_BODY: f64 = 0.1;
 
-fn body_of(environment: &Environment, node: usize, body: &types::Attachment) -> Body {
+/// The body on a node of what an attachment says.
+pub fn body_of(environment: &Environment, node: usize, body: &types::Attachment) -> Body {
     let (rho, g) = (environment.water_density, environment.gravity);
     let volume = body.volume.max(body.mass / STEEL);
     let diameter = (6.0 / std::f64::consts::PI * volume).cbrt().max(SMALLEST_BODY);

@@ -77,16 +77,23 @@ impl Condensed {
     pub fn stiffen(&mut self, by: &DVector<f64>) -> bool {
         let mut stiffened = self.condensed.clone();
         (0..by.len()).for_each(|k| stiffened[(k, k)] += by[k]);
+        let finite = stiffened.iter().all(|x| x.is_finite());
         let solver = stiffened.lu();
-        let fine = solver.is_invertible();
+        let fine = finite && (by.is_empty() || solver.is_invertible());
         self.solver = Some(solver);
         fine
     }
 
     /// Factors the matrix of a motion, of which prescribed unknowns have been taken out.
     pub fn factor(&mut self, system: &dyn System, at: &Motion, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
+        self.condense(system, at, matrix)?;
+        let fine = self.stiffen(&DVector::zeros(self.condensed.nrows()));
+        if fine { Ok(()) } else { Err(Singular { index: self.links.masters.first().copied().unwrap_or(0) }) }
+    }
+
+    /// Makes S; `stiffen` must follow before a solution.
+    pub fn condense(&mut self, system: &dyn System, at: &Motion, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
         system.levers(at, &mut self.levers);
-        let size = self.condensed.nrows();
         self.condensed.fill(0.0);
         for (number, &node) in self.links.masters.iter().enumerate() {
             self.condensed.fixed_view_mut::<6, 6>(6 * number, 6 * number).copy_from(&matrix.diagonal[node]);
@@ -153,20 +160,16 @@ impl Condensed {
                 view += add;
             }
         }
-        let mut solved = self.condensed.clone();
+        let size = self.condensed.diagonal().amax().max(1.0);
         for &(node, component) in fixed {
             if let Some(master) = self.links.masters.iter().position(|master| *master == node) {
                 let k = 6 * master + component;
-                solved.row_mut(k).fill(0.0);
-                solved.column_mut(k).fill(0.0);
-                solved[(k, k)] = 1.0;
+                self.condensed.row_mut(k).fill(0.0);
+                self.condensed.column_mut(k).fill(0.0);
+                self.condensed[(k, k)] = size;
             }
         }
-        let solver = solved.clone().lu();
-        self.condensed = solved;
-        let fine = size == 0 || solver.is_invertible() && self.condensed.iter().all(|x| x.is_finite());
-        self.solver = Some(solver);
-        if fine { Ok(()) } else { Err(Singular { index: self.links.masters.first().copied().unwrap_or(0) }) }
+        Ok(())
     }
 
     /// Solves with the factor: b becomes the solution.

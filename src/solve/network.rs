@@ -32,6 +32,8 @@ pub struct Network {
     pub arms: Vec<Option<Vector3<f64>>>,
     /// Ends that are driven, and their paths.
     pub driven: Vec<(usize, Path)>,
+    /// Nodes of points, and the constant forces on them [N].
+    pub pulls: Vec<(usize, Vector3<f64>)>,
     /// Prescribed unknowns.
     pub fixed: Vec<(usize, usize)>,
     /// Room for forces of the tangent.
@@ -46,6 +48,7 @@ impl Network {
         links: Links,
         arms: Vec<Option<Vector3<f64>>>,
         driven: Vec<(usize, Path)>,
+        pulls: Vec<(usize, Vector3<f64>)>,
         slopes_of: &[usize],
     ) -> Network {
         let mut fixed = rod.fixed().to_vec();
@@ -54,7 +57,7 @@ impl Network {
         fixed.sort_unstable();
         fixed.dedup();
         let room = Mutex::new(Field::new(rod.nodes()));
-        Network { rod, bodies, links, arms, driven, fixed, room }
+        Network { rod, bodies, links, arms, driven, pulls, fixed, room }
     }
 
     fn body_at(&self, node: usize) -> Option<&Rigid> {
@@ -107,6 +110,9 @@ impl System for Network {
             let [force, moment] = body.residual(at);
             out.set_position(body.node, &force);
             out.set_slope(body.node, &moment);
+        }
+        for (node, force) in &self.pulls {
+            out.set_position(*node, &(out.position(*node) - force));
         }
     }
 

@@ -54,6 +54,16 @@ impl Stall {
             Stall::Singular { node } | Stall::Diverging { node } | Stall::NotFinite { node } => node,
         }
     }
+
+    /// The same with nodes counted from another one.
+    pub fn moved_back(self, by: usize) -> Stall {
+        let node = self.node().saturating_sub(by);
+        match self {
+            Stall::Singular { .. } => Stall::Singular { node },
+            Stall::Diverging { .. } => Stall::Diverging { node },
+            Stall::NotFinite { .. } => Stall::NotFinite { node },
+        }
+    }
 }
 
 /// Work done by the iteration.

@@ -664,6 +664,58 @@ impl Simulation {
         rates
     }
 
+    /// The discrete line.
+    pub(in crate::solve) fn line(&self) -> &dyn Line {
+        self.line.as_ref()
+    }
+
+    /// What holds and loads it.
+    pub(in crate::solve) fn supports(&self) -> &Supports {
+        &self.supports
+    }
+
+    /// What its steps have to meet.
+    pub(in crate::solve) fn demands(&self) -> &Demands {
+        &self.demands
+    }
+
+    /// Its state now.
+    pub(in crate::solve) fn state(&self) -> &State {
+        &self.moment.state
+    }
+
+    /// Becomes the part of a larger system's moment that begins at a node, to be looked at.
+    pub(in crate::solve) fn show(&mut self, moment: &Moment, start: usize, work: [f64; 2]) {
+        let own = &mut self.moment;
+        let copy = |to: &mut Field, from: &Field| {
+            for c in 0..6 {
+                let nodes = to.nodes();
+                to.component_mut(c).copy_from_slice(&from.component(c)[start..start + nodes]);
+            }
+        };
+        copy(&mut own.state.u, &moment.state.u);
+        copy(&mut own.state.v, &moment.state.v);
+        copy(&mut own.state.a, &moment.state.a);
+        copy(&mut own.earlier, &moment.earlier);
+        if own.state.holds.nodes() > 0 {
+            copy(&mut own.state.holds, &moment.state.holds);
+        }
+        (own.state.clock, own.last_step) = (moment.state.clock, moment.last_step);
+        [self.work, self.anchor_work] = work;
+    }
+
+    /// Which error a path of an end that cannot be is.
+    pub(in crate::solve) fn refused(&self, cause: Cause, time: f64, fairlead_speed: f64, at_anchor: bool) -> Error {
+        let (s, zone) = if at_anchor { (self.line.mesh().length, Zone::Anchor) } else { (0.0, Zone::Fairlead) };
+        let last_good_time = self.moment.state.clock.now;
+        Error::Step(Box::new(Stuck { line: self.name.clone(), time, s, zone, cause, fairlead_speed, last_good_time }))
+    }
+
+    /// Which error a failure at one of its nodes is.
+    pub(in crate::solve) fn failed(&self, failure: &Failure, fairlead: &Path, last_good_time: f64) -> Error {
+        Error::Step(Box::new(self.stuck(failure, fairlead, last_good_time)))
+    }
+
     /// Work done on what moves the anchor since the start [J], where it is summed up.
     pub fn anchor_work(&self) -> f64 {
         self.anchor_work

@@ -5,6 +5,7 @@ use crate::rod::element::Weights;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::sea::clock::Clock;
 use crate::solve::memory::{Memory, Origin};
+use crate::solve::newton::Newton;
 use crate::solve::scheme::Moment;
 use crate::solve::simulation::LastStep;
 use nalgebra::Matrix3;
@@ -51,6 +52,30 @@ impl Snapshot {
     /// Number of nodes of the line it belongs to.
     pub fn nodes(&self) -> usize {
         self.moment.state.u.nodes()
+    }
+
+    /// Number of free bodies of what it belongs to.
+    pub fn bodies(&self) -> usize {
+        self.moment.state.frames.len()
+    }
+
+    /// Number of nodes that hold on to the bed.
+    pub fn holding_nodes(&self) -> usize {
+        self.moment.state.holds.nodes()
+    }
+
+    /// Becomes the state of a network.
+    pub fn keep(&mut self, moment: &Moment, memory: &Memory, error: f64, fresh: bool, last: LastStep) {
+        self.moment.copy_from(moment);
+        self.memory.clone_from(memory);
+        (self.error, self.fresh, self.last, self.planar, self.resting) = (error, fresh, last, false, false);
+    }
+
+    /// Puts back the state of a network; returns the allowed error, whether it is fresh, and its last step.
+    pub fn bring_back(&self, moment: &mut Moment, newton: &mut Newton) -> (f64, bool, LastStep) {
+        moment.copy_from(&self.moment);
+        newton.recall(&self.memory);
+        (self.error, self.fresh, self.last)
     }
 
     /// Appends the state as little-endian 8-byte words: nodes, of the line and of what friction holds on to, flags and counts,

@@ -1,0 +1,514 @@
+//! Lines that hang on free bodies and points, through statics and time together: one step for all, so that what joins them is solved for with them.
+
+use crate::error::{Adrift, Error, Trouble};
+use crate::rod::cylinder::{Load, Surround};
+use crate::rod::line::Supports;
+use crate::rod::mesh::Mesh;
+use crate::rod::morison::Sea;
+use crate::rod::physics::{self, Surroundings};
+use crate::rod::rigid::Rigid;
+use crate::rod::state::{Field, State};
+use crate::rod::system::{Link, Links, System};
+use crate::scene::bodies::Mount;
+use crate::scene::types::{Attachment, Scene, Surface};
+use crate::sea::clock::Clock;
+use crate::sea::current::Current;
+use crate::sea::waves::Waves;
+use crate::solve::controller::{self, Controller, Demands, Failure};
+use crate::solve::motion::{Ends, Path};
+use crate::solve::network::Network;
+use crate::solve::newton::{Criteria, Newton};
+use crate::solve::partition::Together;
+use crate::solve::pose::{BodyMotion, Kinematics};
+use crate::solve::scheme::{Bench, Moment, Stages};
+use crate::solve::simulation::{Counters, LastStep, NodeOutput, Outputs, Simulation};
+use crate::solve::snapshot::Snapshot;
+use nalgebra::{Matrix3, Vector3};
+
+mod statics;
+
+/// Which end of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EndOf {
+    /// s = 0.
+    Fairlead,
+    /// s = L.
+    Anchor,
+}
+
+/// Lines, free bodies and free points that move together.
+pub struct Group {
+    together: Together,
+    /// Each line alone: its mesh, its statics between given ends, and what it tells about itself.
+    simulations: Vec<Simulation>,
+    /// First node of each line.
+    starts: Vec<usize>,
+    network: Network,
+    newton: Newton,
+    controller: Controller,
+    demands: Demands,
+    moment: Moment,
+    fresh: bool,
+    last: LastStep,
+    names: Vec<String>,
+    /// Nodes of bodies, then of points.
+    masters: Vec<usize>,
+    /// Statics left an unstable equilibrium on the way here: there are others.
+    others: bool,
+    before: Option<Box<Snapshot>>,
+}
+
+/// Largest share of the tolerance that an error of position may be of the reach of a body that no line holds.
+const ALONE: f64 = 1.0e-2;
+
+impl Group {
+    /// The part `together` of a checked scene; `ends` are the paths of the ends of its lines, in their order, of which those on what is free
+    /// do not count.
+    pub fn new(scene: &Scene, together: &Together, ends: &[Ends]) -> Result<Group, Error> {
+        let mut group = Group::on_meshes(scene, together, ends)?;
+        // Meshes are made for lines as the scene puts their ends; free ones come to rest elsewhere.
+        let start = ends.first().map_or(0.0, |_| scene.run.start);
+        if group.settle(start).is_ok() {
+            let mut placed = scene.clone();
+            group.place_in(&mut placed);
+            let mut finer = Group::on_meshes(&placed, together, ends)?;
+            finer.take_poses_of(scene, &group);
+            group = finer;
+        }
+        Ok(group)
+    }
+
+    fn on_meshes(scene: &Scene, together: &Together, ends: &[Ends]) -> Result<Group, Error> {
+        let simulations: Vec<Simulation> =
+            together.lines.iter().map(|index| Simulation::on_ends(scene, *index, None)).collect::<Result<_, _>>()?;
+        let meshes: Vec<&Mesh> = simulations.iter().map(|simulation| simulation.line().mesh()).collect();
+        let count = together.bodies.len() + together.points.len();
+        let (mesh, starts) = Mesh::side_by_side(&meshes, count);
+        let first_master = mesh.nodes() - count;
+        let masters: Vec<usize> = (first_master..mesh.nodes()).collect();
+        let number_of = |on: &Mount| -> Option<usize> {
+            match on {
+                Mount::Body { body, .. } => together.bodies.iter().position(|own| scene.bodies[*own].name == *body),
+                Mount::Point { point } => {
+                    let point = together.points.iter().position(|own| scene.points[*own].name == *point)?;
+                    Some(together.bodies.len() + point)
+                }
+            }
+        };
+        let mut supports = Supports::default();
+        let (mut links, mut arms, mut driven) = (Links { masters: masters.clone(), ..Links::default() }, Vec::new(), Vec::new());
+        for (local, (simulation, start)) in simulations.iter().zip(&starts).enumerate() {
+            let (own, line) = (simulation.supports(), &scene.lines[together.lines[local]]);
+            let last = start + simulation.line().last();
+            links.ranges.push((*start, last + 1));
+            supports.fixed.extend(own.fixed.iter().map(|(node, component)| (start + node, *component)));
+            supports.loads.extend(own.loads.iter().map(|(node, force)| (start + node, *force)));
+            supports.bodies.extend(own.bodies.iter().map(|body| crate::rod::body::Body { node: start + body.node, ..body.clone() }));
+            supports.holds.extend(own.holds.iter().map(|hold| crate::rod::hold::Hold {
+                first: start + hold.first,
+                node: start + hold.node,
+                ..hold.clone()
+            }));
+            let mut slot = 0;
+            for (node, on, path) in [(*start, &line.anchor_on, &ends[local].anchor), (last, &line.fairlead_on, &ends[local].fairlead)] {
+                match on.as_ref().and_then(|on| Some((on, number_of(on)?))) {
+                    Some((on, master)) => {
+                        supports.fixed.retain(|(fixed, _)| *fixed != node);
+                        links.links.push(Link { node, master, line: local, slot });
+                        arms.push(if let Mount::Body { at, .. } = on { Some(Vector3::from(*at)) } else { None });
+                        slot += 1;
+                    }
+                    None if supports.fixed.contains(&(node, 0)) => driven.push((node, path.clone())),
+                    None => {}
+                }
+            }
+        }
+        let around = surround(scene);
+        let bodies: Vec<Rigid> = together
+            .bodies
+            .iter()
+            .enumerate()
+            .map(|(number, body)| Rigid::new(&scene.bodies[*body], &scene.environment, around.clone(), masters[number], number))
+            .collect();
+        let mut pulls = Vec::new();
+        for (number, point) in together.points.iter().enumerate() {
+            let (point, node) = (&scene.points[*point], masters[together.bodies.len() + number]);
+            let as_body = Attachment {
+                s: 0.0,
+                mass: point.mass,
+                volume: point.volume,
+                drag_area: point.drag_area,
+                added_mass: point.added_mass,
+            };
+            supports.bodies.push(physics::body_of(&scene.environment, node, &as_body));
+            pulls.push((node, point.force.into()));
+        }
+        let surroundings = Surroundings::of(scene, &mesh);
+        let crossing = simulations.iter().map(|simulation| simulation.demands().finest_step).fold(scene.solver.max_step, f64::min);
+        let shortest = simulations.iter().map(|simulation| simulation.line().mesh().length).fold(f64::INFINITY, f64::min);
+        let reach = bodies.iter().map(Rigid::reach).fold(0.0, f64::max);
+        let length = if shortest.is_finite() { shortest } else { reach.max(1.0) };
+        let tolerance = simulations.iter().map(|simulation| simulation.demands().criteria.tolerance).fold(1.0e-5, f64::min);
+        let lonely = simulations.is_empty();
+        let rod = physics::build(mesh, surroundings, supports);
+        let slopes: Vec<usize> = masters[together.bodies.len()..].to_vec();
+        let mut network = Network::new(rod, bodies, links, arms, driven, pulls, &slopes);
+        if lonely {
+            network.fixed.extend((0..6).map(|c| (0, c)));
+        }
+        let names = together
+            .bodies
+            .iter()
+            .map(|body| format!("body \"{}\"", scene.bodies[*body].name))
+            .chain(together.points.iter().map(|point| format!("point \"{}\"", scene.points[*point].name)))
+            .collect();
+        let nodes = network.nodes();
+        let newton = Newton::new(&network);
+        let mut moment = controller::at_rest(&network, 0.0, scene.solver.max_step);
+        moment.state.frames = vec![Matrix3::identity(); together.bodies.len()];
+        let mut group = Group {
+            together: together.clone(),
+            simulations,
+            starts,
+            newton,
+            controller: Controller::new(scene.solver.scheme, nodes),
+            demands: Demands {
+                error: ALONE * scene.solver.tolerance * length,
+                finest_step: crossing,
+                max_step: scene.solver.max_step,
+                fixed_step: scene.solver.uncontrolled_step(),
+                criteria: Criteria { tolerance, length, iterations: 12 },
+            },
+            moment,
+            network,
+            fresh: true,
+            last: LastStep::default(),
+            names,
+            masters,
+            others: false,
+            before: None,
+        };
+        group.put_as_in(scene);
+        Ok(group)
+    }
+
+    /// Puts free bodies and points where a scene has them.
+    fn put_as_in(&mut self, scene: &Scene) {
+        let state = &mut self.moment.state;
+        for (number, body) in self.together.bodies.iter().enumerate() {
+            let body = &scene.bodies[*body];
+            state.u.set_position(self.masters[number], &body.position.into());
+            state.u.set_slope(self.masters[number], &Vector3::zeros());
+            state.frames[number] = crate::algebra::rotation::of_angles(&body.attitude());
+        }
+        for (number, point) in self.together.points.iter().enumerate() {
+            state.u.set_position(self.masters[self.together.bodies.len() + number], &scene.points[*point].position.into());
+        }
+    }
+
+    /// Tells a scene where its free bodies and points are.
+    pub fn place_in(&self, scene: &mut Scene) {
+        for number in 0..self.together.bodies.len() {
+            let motion = self.body(number);
+            let body = &mut scene.bodies[self.together.bodies[number]];
+            body.position = motion.reference.position.into();
+            body.attitude_deg = crate::algebra::rotation::angles(&motion.rotation).map(f64::to_degrees).into();
+        }
+        for number in 0..self.together.points.len() {
+            scene.points[self.together.points[number]].position = self.point(number).position.into();
+        }
+        scene.place_ends();
+    }
+
+    /// Poses of the scene as it is written, from which stiffnesses count, and of another group as a place to start from.
+    fn take_poses_of(&mut self, scene: &Scene, other: &Group) {
+        let around = surround(scene);
+        for (number, body) in self.together.bodies.iter().enumerate() {
+            let rigid = &mut self.network.bodies[number];
+            *rigid = Rigid::new(&scene.bodies[*body], &scene.environment, around.clone(), rigid.node, rigid.frame);
+        }
+        self.others = other.others;
+        self.moment.state.frames.clone_from(&other.moment.state.frames);
+        for (own, others) in self.masters.iter().zip(&other.masters) {
+            self.moment.state.u.set_position(*own, &other.moment.state.u.position(*others));
+            self.moment.state.u.set_slope(*own, &other.moment.state.u.slope(*others));
+        }
+    }
+
+    /// Lines, bodies and points, by their numbers in the scene.
+    pub fn together(&self) -> &Together {
+        &self.together
+    }
+
+    /// Sets the path of a driven end of one of its lines.
+    pub fn drive(&mut self, local: usize, end: EndOf, path: &Path) {
+        let node = self.starts[local] + if end == EndOf::Anchor { 0 } else { self.simulations[local].line().last() };
+        if let Some((_, own)) = self.network.driven.iter_mut().find(|(driven, _)| *driven == node) {
+            own.clone_from(path);
+        }
+    }
+
+    /// Sets the force [N] and moment [N·m] that the master applies to a free body.
+    pub fn apply(&mut self, number: usize, force: Vector3<f64>, moment: Vector3<f64>) {
+        if let Some(body) = self.network.bodies.get_mut(number) {
+            body.applied = Load { force, moment };
+        }
+    }
+
+    /// Advances to a time with its driven ends on their paths. On an error the state is the one before the call.
+    pub fn advance(&mut self, until: f64) -> Result<(), Error> {
+        let begin = self.moment.state.clock.now;
+        self.check_paths(until)?;
+        self.mark();
+        let (effort, steps) = (self.newton.effort, self.controller.tally.steps);
+        self.controller.tally.error = 0.0;
+        match self.begin().and_then(|()| self.run(until)) {
+            Ok(()) => {
+                self.last = LastStep {
+                    substeps: self.controller.tally.steps - steps,
+                    newton_iterations: self.newton.effort.iterations - effort.iterations,
+                    error_estimate: self.controller.tally.error,
+                };
+                Ok(())
+            }
+            Err(failure) => {
+                let error = self.failed(&failure, begin);
+                self.undo();
+                Err(error)
+            }
+        }
+    }
+
+    fn begin(&mut self) -> Result<(), Failure> {
+        if !std::mem::take(&mut self.fresh) {
+            return Ok(());
+        }
+        let now = self.moment.state.clock;
+        let (mut bench, moment) = self.bench();
+        bench.prescribe(&mut moment.state, now);
+        bench.accelerate(&mut moment.state).map_err(|stall| Failure { time: now.now, step: 0.0, stall: Some(stall) })
+    }
+
+    fn run(&mut self, until: f64) -> Result<(), Failure> {
+        let demands = self.demands;
+        let nowhere = Path::Fixed(Vector3::zeros());
+        let mut bench = Bench {
+            line: &self.network,
+            newton: &mut self.newton,
+            path: &nowhere,
+            anchor: None,
+            criteria: demands.criteria,
+            allowed: demands.error,
+            stages: Stages::Solve,
+        };
+        self.controller.advance(&mut bench, &demands, &mut self.moment, until, |_, _| {})
+    }
+
+    fn bench(&mut self) -> (Bench<'_>, &mut Moment) {
+        static NOWHERE: Path = Path::Fixed(Vector3::new(0.0, 0.0, 0.0));
+        let bench = Bench {
+            line: &self.network,
+            newton: &mut self.newton,
+            path: &NOWHERE,
+            anchor: None,
+            criteria: self.demands.criteria,
+            allowed: self.demands.error,
+            stages: Stages::Solve,
+        };
+        (bench, &mut self.moment)
+    }
+
+    /// Driven ends begin where they are, with numbers.
+    fn check_paths(&self, until: f64) -> Result<(), Error> {
+        let (time, state) = (self.moment.state.clock.now, &self.moment.state);
+        for (node, path) in &self.network.driven {
+            let (from, to) = (path.at(time), path.at(until));
+            let finite = |k: &Kinematics| [k.position, k.velocity, k.acceleration].iter().flatten().all(|x| x.is_finite());
+            let jump = (from.position - state.u.position(*node)).norm();
+            let local = self.line_of(*node);
+            let length = self.simulations[local].line().mesh().length;
+            if !(finite(&from) && finite(&to) && until.is_finite()) || jump > 1e-6 * length {
+                let cause = if finite(&from) && finite(&to) {
+                    crate::error::Cause::Jump { distance: jump }
+                } else {
+                    crate::error::Cause::BadMotion
+                };
+                return Err(self.simulations[local].refused(cause, until, to.velocity.norm(), *node == self.starts[local]));
+            }
+        }
+        Ok(())
+    }
+
+    fn line_of(&self, node: usize) -> usize {
+        self.starts.partition_point(|start| *start <= node).saturating_sub(1)
+    }
+
+    fn failed(&mut self, failure: &Failure, last_good_time: f64) -> Error {
+        let node = failure.stall.map_or(0, |stall| stall.node());
+        if let Some(number) = self.masters.iter().position(|master| *master == node) {
+            let trouble = Trouble::Stuck { step: failure.step, last_good_time };
+            return Error::Network(Box::new(Adrift { what: self.names[number].clone(), time: failure.time, trouble }));
+        }
+        if self.simulations.is_empty() {
+            let trouble = Trouble::Stuck { step: failure.step, last_good_time };
+            return Error::Network(Box::new(Adrift { what: self.names.concat(), time: failure.time, trouble }));
+        }
+        let local = self.line_of(node);
+        let start = self.starts[local];
+        let here = Failure { stall: failure.stall.map(|stall| stall.moved_back(start)), ..*failure };
+        let moment = self.moment.clone();
+        self.simulations[local].show(&moment, start, [0.0; 2]);
+        self.simulations[local].failed(&here, &Path::Fixed(Vector3::zeros()), last_good_time)
+    }
+
+    /// Lets the lines be seen as they are now.
+    fn shown(&mut self, local: usize) -> &mut Simulation {
+        self.simulations[local].show(&self.moment, self.starts[local], [0.0; 2]);
+        &mut self.simulations[local]
+    }
+
+    /// Outputs of one of its lines now.
+    pub fn outputs(&mut self, local: usize) -> Outputs {
+        self.shown(local).observe()
+    }
+
+    /// Nodes of one of its lines now, from the fairlead.
+    pub fn nodes(&mut self, local: usize) -> Vec<NodeOutput> {
+        self.shown(local).nodes()
+    }
+
+    /// One of its lines, to be asked about mesh and physics.
+    pub fn line(&self, local: usize) -> &Simulation {
+        &self.simulations[local]
+    }
+
+    /// Motion of one of its bodies now.
+    pub fn body(&self, number: usize) -> BodyMotion {
+        let State { clock, u, v, a, holds, frames } = &self.moment.state;
+        let motion = self.network.bodies[number].motion(&crate::rod::element::Motion { clock: *clock, u, v, a, holds, frames });
+        let (position, velocity, acceleration) = (motion.position, motion.velocity, motion.acceleration);
+        BodyMotion {
+            reference: Kinematics { position, velocity, acceleration },
+            rotation: motion.rotation,
+            omega: motion.omega,
+            alpha: motion.alpha,
+        }
+    }
+
+    /// Motion of one of its points now.
+    pub fn point(&self, number: usize) -> Kinematics {
+        let (node, state) = (self.masters[self.together.bodies.len() + number], &self.moment.state);
+        Kinematics { position: state.u.position(node), velocity: state.v.position(node), acceleration: state.a.position(node) }
+    }
+
+    /// Gives one of its bodies a velocity [m/s] and an angular velocity [rad/s]; the next step begins from there.
+    pub fn push(&mut self, number: usize, velocity: Vector3<f64>, omega: Vector3<f64>) {
+        let node = self.masters[number];
+        self.moment.state.v.set_position(node, &velocity);
+        self.moment.state.v.set_slope(node, &omega);
+        self.network.follow(&mut self.moment.state);
+        self.fresh = true;
+    }
+
+    /// Puts one of its bodies into a pose, its lines as they are but for the ends that hang on it; the next step begins from there.
+    pub fn pose(&mut self, number: usize, position: Vector3<f64>, rotation: Matrix3<f64>) {
+        let node = self.masters[number];
+        self.moment.state.u.set_position(node, &position);
+        self.moment.state.u.set_slope(node, &Vector3::zeros());
+        self.moment.state.frames[number] = rotation;
+        self.network.follow(&mut self.moment.state);
+        self.fresh = true;
+    }
+
+    /// Sets the constant force on one of its points [N]; the next step begins with it.
+    pub fn pull(&mut self, number: usize, force: Vector3<f64>) {
+        if let Some((_, own)) = self.network.pulls.get_mut(number) {
+            *own = force;
+        }
+        self.fresh = true;
+    }
+
+    /// Time now [s].
+    pub fn time(&self) -> f64 {
+        self.moment.state.clock.now
+    }
+
+    /// The last `advance`.
+    pub fn last_step(&self) -> LastStep {
+        self.last
+    }
+
+    /// Work done by the solver, all lines together.
+    pub fn counters(&self) -> Counters {
+        let (tally, effort) = (&self.controller.tally, &self.newton.effort);
+        Counters {
+            steps: tally.steps,
+            rejected_steps: tally.rejected,
+            unresolved_steps: tally.unresolved,
+            pushing_steps: 0,
+            newton_iterations: effort.iterations,
+            factorisations: effort.factorisations,
+            element_iterations: effort.iterations * self.elements(),
+        }
+    }
+
+    /// Elements of all its lines.
+    pub fn elements(&self) -> usize {
+        self.simulations.iter().map(Simulation::elements).sum()
+    }
+
+    /// The complete state.
+    pub fn save(&self, snapshot: &mut Snapshot) {
+        snapshot.keep(&self.moment, self.newton.memory(), self.demands.error, self.fresh, self.last);
+    }
+
+    /// Puts back a state of this group; false, and nothing changed, if it is not one.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
+        if !self.fits(snapshot) {
+            return false;
+        }
+        let (error, fresh, last) = snapshot.bring_back(&mut self.moment, &mut self.newton);
+        (self.demands.error, self.fresh, self.last) = (error, fresh, last);
+        true
+    }
+
+    /// Whether a state is one of this group.
+    pub fn fits(&self, snapshot: &Snapshot) -> bool {
+        snapshot.nodes() == self.network.nodes()
+            && snapshot.bodies() == self.together.bodies.len()
+            && snapshot.holding_nodes() == self.network.holding_nodes()
+    }
+
+    /// Takes the last `advance` back.
+    pub fn undo(&mut self) {
+        if let Some(before) = self.before.take() {
+            self.restore(&before);
+            self.before = Some(before);
+        }
+    }
+
+    fn mark(&mut self) {
+        let mut before = self.before.take().unwrap_or_else(|| Box::new(Snapshot::new(self.network.nodes())));
+        self.save(&mut before);
+        self.before = Some(before);
+    }
+}
+
+fn surround(scene: &Scene) -> Surround {
+    let environment = &scene.environment;
+    let (waves, current) = (Waves::of(environment), Current::new(&environment.current));
+    let flows = waves.is_some() || !current.is_still();
+    let sea = flows.then(|| Sea { waves: waves.unwrap_or_else(|| Waves::new(&[], environment.gravity, environment.depth, 0.0)), current });
+    Surround {
+        sea,
+        surface: environment.surface == Surface::Pierced,
+        density: environment.water_density,
+        gravity: environment.gravity,
+    }
+}
+
+/// Moments of what lines do not hold: nothing moves.
+pub(in crate::solve) fn still(network: &Network, time: f64, frames: &[Matrix3<f64>]) -> State {
+    let holds = Field::new(network.holding_nodes());
+    State { clock: Clock::at_rest(time), holds, frames: frames.to_vec(), ..State::new(network.nodes()) }
+}

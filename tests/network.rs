@@ -1,0 +1,254 @@
+//! Lines that hang on free points and bodies, against closed forms and conservation laws.
+
+use moorline::scene::read::{self, Loaded};
+use moorline::solve::group::Group;
+use moorline::solve::motion::Ends;
+use moorline::solve::partition;
+use nalgebra::{Matrix3, Vector3};
+use serde_json::{Value, json};
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+fn load(scene: &Value) -> Loaded {
+    read::parse(&scene.to_string(), "test", Path::new("."), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The only part of a scene that holds anything free.
+fn group(loaded: &Loaded) -> Group {
+    let parts = partition::parts(&loaded.scene);
+    let part = parts.iter().find(|part| !part.is_alone()).expect("something free");
+    let ends: Vec<Ends> = part.lines.iter().map(|index| Ends::of_scene(loaded, *index)).collect();
+    Group::new(&loaded.scene, part, &ends).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Puts a group in equilibrium at t = 0.
+fn settled(scene: &Value) -> Group {
+    let mut group = group(&load(scene));
+    group.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
+    group
+}
+
+/// Times at which a quantity passes zero upwards or downwards, by the straight line between samples.
+fn crossings(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let pairs = times.windows(2).zip(values.windows(2));
+    pairs.filter(|(_, x)| (x[0] < 0.0) != (x[1] < 0.0)).map(|(t, x)| t[0] + (t[1] - t[0]) * x[0] / (x[0] - x[1])).collect()
+}
+
+/// A heavy point on a stiff light string, held aside by a force: at rest where the string points along weight and force; let go, it swings
+/// with the period of the finite amplitude, 4 √(l/g) K(sin ½α), K by the arithmetic–geometric mean.
+#[test]
+fn a_mass_on_a_line_swings_as_a_pendulum() {
+    let (length, angle, g): (f64, f64, f64) = (10.0, 60.0_f64.to_radians(), 9.81);
+    let scene = |pull: f64, tolerance: f64| {
+        json!({
+            "environment": {"depth": 100.0, "water_density": 0.0, "gravity": g, "surface": "none"},
+            "line_types": {"string": {"ea": 1.0e7, "mass": 1.0e-3, "diameter": 0.001, "submerged_weight": 0.005}},
+            "lines": [{"fairlead": [0, 0, -20], "anchor": {"point": "bob"}, "sections": [{"type": "string", "length": length, "elements": 2}]}],
+            "points": [{"name": "bob", "position": [0, 0, -30], "mass": 1000.0, "force": [pull, 0, 0]}],
+            "solver": {"tolerance": tolerance}
+        })
+    };
+    let held = settled(&scene(1000.0 * g * angle.tan(), 1e-4));
+    let place = held.point(0).position;
+    let stretched = length * (1.0 + 1000.0 * g / angle.cos() / 1.0e7);
+    assert!((place - Vector3::new(stretched * angle.sin(), 0.0, -20.0 - stretched * angle.cos())).norm() < 1e-4, "{place:?}");
+
+    let mut start = held;
+    start.pull(0, Vector3::zeros());
+    let (mut times, mut places, mut energies) = (vec![0.0], vec![place.x], Vec::new());
+    for k in 1..=2000 {
+        let time = 0.01 * f64::from(k);
+        start.advance(time).unwrap_or_else(|error| panic!("{error}"));
+        let point = start.point(0);
+        times.push(time);
+        places.push(point.position.x);
+        energies.push(0.5 * point.velocity.norm_squared() + g * point.position.z);
+    }
+    let (mut a, mut b): (f64, f64) = (1.0, (0.5 * angle).cos());
+    for _ in 0..6 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    let period = TAU * (stretched / g).sqrt() / a;
+    let zeros = crossings(&times, &places);
+    let found = 2.0 * (zeros[zeros.len() - 1] - zeros[0]) / (zeros.len() - 1) as f64;
+    println!("period {found} for {period}; energy {} to {}", energies[0], energies[energies.len() - 1]);
+    assert!((found / period - 1.0).abs() < 1e-3, "period {found} s, not {period} s");
+}
+
+/// Three catenaries that meet at a heavy free point: the forces of the lines, each in closed form between its ends, balance the weight there. The
+/// root is found here by Newton's method on Irvine's formulas.
+#[test]
+fn three_lines_at_a_free_point_are_three_catenaries() {
+    let lines: [([f64; 3], f64); 3] = [([0.0, 0.0, 0.0], 60.0), ([-90.0, 20.0, -80.0], 110.0), ([70.0, -60.0, -70.0], 100.0)];
+    let (ea, weight, heavy) = (5.0e7, 400.0, 30.0e3);
+    let scene = json!({
+        "environment": {"depth": 500.0, "water_density": 1025.0, "gravity": 9.81, "surface": "none"},
+        "line_types": {"rope": {"ea": ea, "mass": 60.0, "diameter": 0.1, "submerged_weight": weight}},
+        "lines": lines.iter().map(|(at, length)| json!({
+            "fairlead": at, "anchor": {"point": "meeting"}, "sections": [{"type": "rope", "length": length, "elements": 60}]
+        })).collect::<Vec<_>>(),
+        "points": [{"name": "meeting", "position": [0, 0, -50], "force": [0, 0, -heavy]}],
+    });
+    let mut group = settled(&scene);
+    let found = group.point(0).position;
+    // Force of a line on the point: by the elastic catenary between the two ends.
+    let pull = |at: &Vector3<f64>, point: &Vector3<f64>, length: f64| {
+        let (dx, dy, h) = (at.x - point.x, at.y - point.y, at.z - point.z);
+        let span = dx.hypot(dy);
+        let (mut hor, mut ver) = (weight * length, 0.5 * weight * length * (h / length) - 0.5 * weight * length);
+        for _ in 0..200 {
+            let reach = |hor: f64, ver: f64| {
+                let up = ver + weight * length;
+                let asinh = (up / hor).asinh() - (ver / hor).asinh();
+                let hyp = (1.0 + (up / hor).powi(2)).sqrt() - (1.0 + (ver / hor).powi(2)).sqrt();
+                [
+                    hor * length / ea + hor / weight * asinh,
+                    length / ea * (ver + 0.5 * weight * length) + hor / weight * hyp,
+                ]
+            };
+            let [x, z] = reach(hor, ver);
+            let d = 1e-3;
+            let ([xh, zh], [xv, zv]) = (reach(hor + d, ver), reach(hor, ver + d));
+            let m = nalgebra::Matrix2::new((xh - x) / d, (xv - x) / d, (zh - z) / d, (zv - z) / d);
+            let step = m.lu().solve(&nalgebra::Vector2::new(span - x, h - z)).expect("a step");
+            let share = if hor + step.x > 0.2 * hor { 1.0 } else { 0.5 * hor / step.x.abs() };
+            hor += share * step.x;
+            ver += share * step.y;
+            if step.norm() < 1e-9 {
+                break;
+            }
+        }
+        Vector3::new(hor * dx / span, hor * dy / span, ver)
+    };
+    let balance = |point: &Vector3<f64>| -> Vector3<f64> {
+        lines.iter().map(|(at, length)| pull(&Vector3::from(*at), point, *length)).sum::<Vector3<f64>>() - Vector3::z() * heavy
+    };
+    let mut point = found;
+    for _ in 0..20 {
+        let d = 1e-4;
+        let here = balance(&point);
+        let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| (balance(&(point + axis * d)) - here) / d);
+        let step = Matrix3::from_columns(&columns).lu().solve(&-here).expect("a step");
+        point += step;
+        if step.norm() < 1e-12 {
+            break;
+        }
+    }
+    println!("{found:?} {point:?}");
+    assert!((found - point).norm() < 1e-6 * 100.0, "{found:?}, not {point:?}");
+    for (number, (at, length)) in lines.iter().enumerate() {
+        let (tension, exact) = (group.outputs(number).anchor_tension, pull(&Vector3::from(*at), &point, *length).norm());
+        assert!((tension / exact - 1.0).abs() < 1e-6, "line {number}: {tension} N, not {exact} N");
+    }
+}
+
+/// A buoy of one upright cylinder, moored by a line without weight or stiffness to speak of.
+fn spar(position: [f64; 3], attitude: [f64; 3], mass: f64, centre: f64, inertia: [f64; 3], gravity: f64) -> Value {
+    json!({
+        "environment": {"depth": 200.0, "water_density": 1025.0, "gravity": gravity},
+        "line_types": {"thread": {"ea": 10.0, "mass": 1.0e-3, "diameter": 0.001, "submerged_weight": 0.001}},
+        "lines": [{"fairlead": {"body": "spar", "at": [0, 0, -30]}, "anchor": [0, 0, -200],
+            "sections": [{"type": "thread", "length": 230.0, "elements": 4}]}],
+        "bodies": [{"name": "spar", "position": position, "attitude_deg": attitude, "motion": {"kind": "free"}, "mass": mass,
+            "centre_of_mass": [0, 0, centre], "inertia": inertia,
+            "cylinders": [{"from": [0, 0, -30], "to": [0, 0, 10], "diameter": 6.0}]}],
+        "solver": {"tolerance": 1e-3, "max_step": 0.1}
+    })
+}
+
+/// Heave of a spar without added mass: T = 2π √(m/(ρ g A)); pitch: T = 2π √(I/(m g GM)) with I about the centre of mass, GM from the draught.
+#[test]
+fn a_spar_heaves_and_pitches_with_the_periods_of_the_closed_form() {
+    let (g, rho, area) = (9.81, 1025.0, PI * 9.0);
+    let draught = 30.0;
+    let mass = rho * area * draught;
+    let inertia = mass * 100.0;
+    let mut group = settled(&spar([0.0, 0.0, 0.3], [0.0; 3], mass, -18.0, [inertia, inertia, mass], g));
+    let rest = group.body(0);
+    assert!(rest.reference.position.z.abs() < 1e-3, "it floats at {:?}", rest.reference.position);
+    group.push(0, Vector3::z() * 0.3, Vector3::zeros());
+    let (mut times, mut heave) = (Vec::new(), Vec::new());
+    for k in 1..=600 {
+        let time = 0.1 * f64::from(k);
+        group.advance(time).unwrap_or_else(|error| panic!("{error}"));
+        times.push(time);
+        heave.push(group.body(0).reference.position.z - rest.reference.position.z);
+    }
+    let zeros = crossings(&times, &heave);
+    let found = 2.0 * (zeros[zeros.len() - 1] - zeros[0]) / (zeros.len() - 1) as f64;
+    let period = TAU * (mass / (rho * g * area)).sqrt();
+    println!("heave {found} for {period}");
+    assert!((found / period - 1.0).abs() < 2e-3, "heave {found} s, not {period} s");
+
+    group.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
+    // About the centre of mass, so that heave stays out of it.
+    let omega = Vector3::y() * 0.01;
+    group.push(0, omega.cross(&Vector3::new(0.0, 0.0, 18.0)), omega);
+    let (mut times, mut pitch) = (Vec::new(), Vec::new());
+    for k in 1..=1200 {
+        let time = 0.1 * f64::from(k);
+        group.advance(time).unwrap_or_else(|error| panic!("{error}"));
+        times.push(time);
+        pitch.push(group.body(0).rotation[(0, 2)]);
+    }
+    let zeros = crossings(&times, &pitch);
+    let found = 2.0 * (zeros[zeros.len() - 1] - zeros[0]) / (zeros.len() - 1) as f64;
+    // KB + BM - KG above the keel: draught/2 + I_w/V - 12.
+    let gm = 15.0 + 0.25 * 9.0 / draught - 12.0;
+    let period = TAU * (inertia / (mass * g * gm)).sqrt();
+    println!("pitch {found} for {period}");
+    assert!((found / period - 1.0).abs() < 2e-3, "pitch {found} s, not {period} s");
+}
+
+/// A cylinder whose centre of mass is above its centre of buoyancy and metacentre does not stand upright: statics finds a stable side, or says
+/// that there is none.
+#[test]
+fn a_capsizing_cylinder_finds_its_stable_side() {
+    let (g, rho, area) = (9.81, 1025.0, PI * 9.0);
+    let mass = rho * area * 20.0;
+    let mut scene = spar([0.0, 0.0, 0.0], [0.0; 3], mass, 0.0, [mass * 100.0, mass * 100.0, mass * 10.0], g);
+    scene["lines"][0]["fairlead"]["at"] = json!([0, 0, 0]);
+    let mut group = group(&load(&scene));
+    let report = group.settle(0.0);
+    let up = group.body(0).rotation[(2, 2)];
+    assert!(report.is_ok() && up < 0.9, "it stands upright: {up}");
+    // Stable: heave, roll and pitch of the whole are held (nothing holds the rest but a thread).
+    let stiffness = group.stiffness().expect("a stiffness");
+    assert!((2..5).all(|k| stiffness[(k, k)] > 0.0), "{stiffness}");
+}
+
+/// Euler's top: a free body far from anything spins about an axis that is none of its own. Energy and angular momentum are kept to the second
+/// order of the step.
+#[test]
+fn a_free_top_keeps_energy_and_momentum_to_the_order_of_the_scheme() {
+    let drift = |step: f64, scheme: &str| {
+        let mut scene = spar([0.0, 0.0, -60.0], [0.0; 3], 1000.0, 0.0, [2000.0, 3000.0, 4000.0], 1.0e-9);
+        scene["bodies"][0]["cylinders"] = json!([]);
+        scene["lines"][0]["fairlead"]["at"] = json!([0, 0, 0]);
+        scene["line_types"]["thread"] = json!({"ea": 1.0e-3, "mass": 1.0e-6, "diameter": 0.001, "submerged_weight": 0.0});
+        scene["solver"] = json!({"fixed_step": step, "scheme": scheme, "tolerance": 1e-6});
+        let mut group = group(&load(&scene));
+        let inertia = Matrix3::from_diagonal(&Vector3::new(2000.0, 3000.0, 4000.0));
+        group.push(0, Vector3::zeros(), Vector3::new(0.5, 1.0, 0.3));
+        let of = |group: &Group| {
+            let body = group.body(0);
+            let momentum = body.rotation * inertia * body.rotation.transpose() * body.omega;
+            (0.5 * momentum.dot(&body.omega), momentum)
+        };
+        let (energy, momentum) = of(&group);
+        let mut worst = [0.0_f64; 2];
+        for k in 1..=200 {
+            group.advance(0.1 * f64::from(k)).unwrap_or_else(|error| panic!("{error}"));
+            let (e, m) = of(&group);
+            worst[0] = worst[0].max((e / energy - 1.0).abs());
+            worst[1] = worst[1].max((m - momentum).norm() / momentum.norm());
+        }
+        worst
+    };
+    for (scheme, order) in [("adams-moulton", 2.0), ("esdirk3", 3.0), ("generalized-alpha", 2.0)] {
+        let (coarse, fine) = (drift(0.05, scheme), drift(0.025, scheme));
+        let orders = [(coarse[0] / fine[0]).log2(), (coarse[1] / fine[1]).log2()];
+        println!("{scheme}: {coarse:?} {fine:?} orders {orders:?}");
+        assert!(orders.iter().all(|found| *found > order - 0.3) && fine.iter().all(|drift| *drift < 1e-2), "{scheme}: {orders:?}");
+    }
+}
