@@ -108,13 +108,16 @@ pub mod solve {
     pub mod generalized_alpha;
     pub mod group;
     pub mod line_state;
+    pub mod loads;
     pub mod memory;
     pub mod meshing;
     pub mod mixed;
+    pub mod mooring;
     pub mod motion;
     pub mod network;
     pub mod newton;
     pub mod outputs;
+    pub mod part;
     pub mod partition;
     pub mod plane;
     pub mod pose;
@@ -137,6 +140,7 @@ pub mod solve {
 
 /// The FMU: FMI 2.0 co-simulation around the facade of `solve`.
 pub mod fmi {
+    pub mod body_variables;
     pub mod experiment;
     pub mod filter;
     pub mod fit;
@@ -155,6 +159,7 @@ pub mod fmi {
     pub mod segment;
     pub mod snapshot;
     pub mod variables;
+    pub mod vessel;
     pub mod warnings;
 }
 

@@ -203,7 +203,7 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
 
 fn residual(line: &dyn Line, state: &State) -> Field {
     let mut out = Field::new(line.mesh().nodes());
-    line.residual(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds }, &mut out);
+    line.residual(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds, frames: &[] }, &mut out);
     out
 }
 
@@ -216,7 +216,7 @@ fn error(line: &dyn Line, state: &State, weights: &Weights, random: &mut Random,
 fn error_along(line: &dyn Line, state: &State, weights: &Weights, direction: &Field, d: f64) -> f64 {
     let mut matrix = BlockTridiagonal::new(line.mesh().ties());
     line.tangent(
-        &Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds },
+        &Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds, frames: &[] },
         weights,
         None,
         &mut matrix,
@@ -399,7 +399,7 @@ fn tangent_of_bodies_and_holds_is_the_change_of_the_residual() {
             worst = worst.max(error);
         }
         let mut newton = Newton::new(line.as_ref());
-        let at = Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds };
+        let at = Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds, frames: &[] };
         newton.factor(line.as_ref(), &at, &Weights { u: 1.0, v: 0.0, a: 50.0 }, None).expect("regular");
         let mut step = residual(line.as_ref(), &state);
         newton.solve_linear(line.as_ref(), &mut step);

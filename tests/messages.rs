@@ -461,7 +461,7 @@ fn the_built_in_scene_has_the_published_values() {
     let loaded = built_in(&[]).expect("the built-in scene is good");
     assert_eq!(loaded.file, "built-in scene");
     assert!(loaded.warnings.is_empty() && loaded.motion.is_none());
-    let Scene { title, environment, line_types, lines, motion, run, solver } = loaded.scene;
+    let Scene { title, environment, line_types, lines, motion, run, solver, .. } = loaded.scene;
     assert_eq!(title, "Lindahl & Sjöberg (1983) as run by Ma & Webster (1994)");
     assert_eq!((environment.gravity, environment.water_density, environment.depth), (9.80665, 1000.0, 120.0));
     assert_eq!(environment.seabed.stiffness, Some(5075.2591));
@@ -482,7 +482,7 @@ fn the_smallest_scene_takes_every_default() {
     let text = r#"{"environment": {"depth": 50}, "line_types": {"a": {"ea": 1e8, "mass": 10, "diameter": 0.1}},
                    "lines": [{"fairlead": [0,0,0], "anchor": [60,0,-50], "sections": [{"type": "a", "length": 90}]},
                              {"fairlead": [0,0,0], "anchor": [0,60,-50], "sections": [{"type": "a", "length": 90}]}]}"#;
-    let Scene { title, environment, line_types, lines, motion, run, solver } = read(text, &[]).expect("it is complete").scene;
+    let Scene { title, environment, line_types, lines, motion, run, solver, .. } = read(text, &[]).expect("it is complete").scene;
     assert_eq!((title.as_str(), environment.gravity, environment.water_density), ("", 9.80665, 1025.0));
     assert_eq!((environment.surface, environment.current.len(), environment.waves), (Surface::Pierced, 0, None));
     let seabed = &environment.seabed;

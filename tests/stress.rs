@@ -77,7 +77,6 @@ fn line_type(random: &mut Random) -> LineType {
         inner_fluid: None,
         outer_area: None,
         seabed_stiffness: None,
-        folds: false,
     }
 }
 
@@ -111,11 +110,15 @@ fn scene(seed: u64) -> Scene {
         lines: vec![Line {
             name: "line".to_string(),
             fairlead: [0.0, 0.0, fairlead_z],
+            fairlead_on: None,
             anchor: [span * cos, span * sin, -drop],
+            anchor_on: None,
             sections: vec![Section { line_type: "rope".to_string(), length, elements: Some(random.between(5.0, 41.0) as usize) }],
             attachments: Vec::new(),
             constraints: Vec::new(),
         }],
+        bodies: Vec::new(),
+        points: Vec::new(),
         motion: Motion::Sinusoidal {
             period: random.magnitude(4.0, 20.0),
             sine: random.triple(amplitude),
@@ -171,15 +174,7 @@ fn random_trial(seed: u64) -> Trial {
 
 fn trial_of(class: &'static str, seed: u64, scene: Scene) -> Trial {
     let step = scene.run.output_step;
-    let loaded = Loaded {
-        scene: scene.clone(),
-        file: "random".into(),
-        directory: ".".into(),
-        motion: None,
-        deck: None,
-        state: None,
-        warnings: Vec::new(),
-    };
+    let loaded = Loaded::of_scene(scene.clone());
     let until = (scene.run.duration / step).ceil() * step;
     Trial { class, name: format!("scene {seed}"), path: path_of(&loaded), scene, step, until }
 }

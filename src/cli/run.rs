@@ -19,8 +19,12 @@ use crate::scene::state::LineState;
 use crate::scene::types::Scheme;
 use crate::solve::departure::{self, Departure};
 use crate::solve::fleet;
-use crate::solve::motion;
-use crate::solve::simulation::{Counters, NodeOutput, Outputs, Simulation};
+use crate::solve::loads::{BodyOutputs, Pose};
+use crate::solve::mooring::Hung;
+use crate::solve::part::Part;
+use crate::solve::partition::{self, Together};
+use crate::solve::simulation::{Counters, NodeOutput, Outputs};
+use nalgebra::Vector3;
 use std::fmt::Write;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -38,13 +42,16 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     let schedule = Schedule::new(&loaded.scene.run);
     let mut record = Record::new(&loaded.scene, &loaded.file, loaded.warnings.clone(), schedule.snapshot_step());
     let started = Instant::now();
-    let mut lines = MovingLines::new(&loaded)?;
+    let mut parts = MovingParts::new(&loaded)?;
     record.statics_seconds = started.elapsed().as_secs_f64();
-    lines.lines.iter().zip(&mut record.lines).for_each(|(line, into)| into.elements = line.simulation.elements());
+    for part in &parts.parts {
+        let lines = part.part.lines().iter().enumerate();
+        lines.for_each(|(local, index)| record.lines[*index].elements = part.part.line(local).elements());
+    }
 
     let files = Files::of(&arguments.options.output)?;
     let mut tables = Tables::create(&files, &record, &loaded, &arguments.options.output)?;
-    let outcome = drive(&mut lines, &schedule, &mut record, &mut tables, quiet);
+    let outcome = drive(&mut parts, &schedule, &mut record, &mut tables, quiet);
     record.ended_by = outcome.as_ref().err().cloned();
     tables::write(&files.summary, &tables::summary(&record))?;
     tables::write(&files.report, &page::html(&record))?;
@@ -72,29 +79,30 @@ fn leave_fmu(loaded: &Loaded, directory: &Path) -> Result<String, Error> {
 
 /// From static equilibrium to the end of the schedule, or to the failure that ends the run earlier.
 fn drive(
-    lines: &mut MovingLines,
+    parts: &mut MovingParts,
     schedule: &Schedule,
     record: &mut Record,
     tables: &mut Tables,
     quiet: bool,
 ) -> Result<(), Error> {
     let interrupt = Interrupt::watch();
-    lines.settle(record)?;
+    parts.settle(record)?;
     let wanted = Wanted { schedule, walls: tables.walls, states: tables.cable.is_some() };
-    let start = lines.lines.iter().map(|line| line.sample(0, &wanted)).collect();
-    let mut now = Row::of(schedule.time(0), start);
+    let start = parts.parts.iter_mut().map(|part| part.sample(0, &wanted)).collect();
+    let MovingParts { parts: moving, hung, .. } = &mut *parts;
+    let mut now = Row::of(schedule.time(0), start, hung);
     tables.row(record, &now)?;
 
     let progress = Progress::new(schedule.rows(), record.scene.run.end(), quiet);
-    let gather = |row: usize, samples: Vec<Sample>| {
-        now = Row::of(schedule.time(row), samples);
+    let gather = |row: usize, samples: Vec<PartSample>| {
+        now = Row::of(schedule.time(row), samples, hung);
         tables.row(record, &now)?;
         progress.show(row, now.time, &now.outputs);
         Ok(())
     };
     let outcome =
-        fleet::through_rows(&mut lines.lines, 1..schedule.rows(), |line, row| line.go(row, &wanted, &interrupt), gather);
-    lines.account(record);
+        fleet::through_rows(moving, 1..schedule.rows(), |part, row| part.go(row, &wanted, &interrupt), gather);
+    parts.account(record);
     // The last state that all lines share, wherever the run ended.
     if record.snapshot_times.last() < Some(&now.time) {
         let names = record.lines.iter().map(|line| line.name.as_str());
@@ -106,14 +114,13 @@ fn drive(
     outcome
 }
 
-/// A line with the path of its fairlead.
-struct MovingLine {
-    name: String,
-    simulation: Simulation,
-    path: motion::Path,
+/// A part of the mooring on its way.
+struct MovingPart {
+    part: Part,
+    names: Vec<String>,
     /// Wall time inside the time loop [s].
     seconds: f64,
-    /// Time at which the line stands, if it could go no further [s].
+    /// Time at which it stands, if it could go no further [s].
     stuck_at: Option<f64>,
 }
 
@@ -128,6 +135,7 @@ struct Wanted<'a> {
 
 /// A line at an output time, with its part of the tables.
 struct Sample {
+    index: usize,
     outputs: Outputs,
     nodes: Vec<NodeOutput>,
     counters: Counters,
@@ -137,14 +145,21 @@ struct Sample {
     state: Option<LineState>,
 }
 
-impl MovingLine {
+/// A part at an output time.
+struct PartSample {
+    lines: Vec<Sample>,
+    bodies: Vec<(usize, Pose)>,
+    points: Vec<(usize, Vector3<f64>)>,
+}
+
+impl MovingPart {
     /// Advances to a row, unless the user stops the run before.
-    fn go(&mut self, row: usize, wanted: &Wanted, interrupt: &Interrupt) -> Result<Sample, Error> {
+    fn go(&mut self, row: usize, wanted: &Wanted, interrupt: &Interrupt) -> Result<PartSample, Error> {
         if interrupt.came() {
             return Err(Error::Interrupted { time: wanted.schedule.time(row - 1) });
         }
         let started = Instant::now();
-        let outcome = self.simulation.advance(wanted.schedule.time(row), &self.path);
+        let outcome = self.part.advance(wanted.schedule.time(row));
         self.seconds += started.elapsed().as_secs_f64();
         if outcome.is_err() {
             self.stuck_at = Some(wanted.schedule.time(row - 1));
@@ -152,21 +167,28 @@ impl MovingLine {
         outcome.map(|()| self.sample(row, wanted))
     }
 
-    fn sample(&self, row: usize, wanted: &Wanted) -> Sample {
-        let (outputs, nodes) = (self.simulation.outputs(), self.simulation.nodes());
+    fn sample(&mut self, row: usize, wanted: &Wanted) -> PartSample {
         let due = row.is_multiple_of(wanted.schedule.rows_per_snapshot());
-        Sample {
-            outputs,
-            counters: self.simulation.counters(),
-            cells: tables::cells(&outputs),
-            node_rows: due.then(|| tables::node_rows(wanted.schedule.time(row), &self.name, &nodes, wanted.walls)),
-            nodes,
-            state: wanted.states.then(|| self.simulation.line_state()),
-        }
+        let indices = self.part.lines().to_vec();
+        let mut line = |(local, index): (usize, usize)| {
+            let (outputs, nodes) = (self.part.outputs(local), self.part.nodes(local));
+            let time = wanted.schedule.time(row);
+            Sample {
+                index,
+                outputs,
+                counters: self.part.counters(local),
+                cells: tables::cells(&outputs),
+                node_rows: due.then(|| tables::node_rows(time, &self.names[local], &nodes, wanted.walls)),
+                nodes,
+                state: wanted.states.then(|| self.part.line(local).line_state()),
+            }
+        };
+        let lines = indices.into_iter().enumerate().map(&mut line).collect();
+        PartSample { lines, bodies: self.part.bodies(), points: self.part.points() }
     }
 }
 
-/// All lines at an output time.
+/// All lines, bodies and free points at an output time.
 #[derive(Default)]
 struct Row {
     time: f64,
@@ -178,11 +200,20 @@ struct Row {
     node_rows: Vec<Vec<u8>>,
     /// Of the first line, where a CABLE file is run.
     state: Option<LineState>,
+    bodies: Vec<BodyOutputs>,
+    points: Vec<Vector3<f64>>,
 }
 
 impl Row {
-    fn of(time: f64, lines: Vec<Sample>) -> Row {
+    fn of(time: f64, parts: Vec<PartSample>, hung: &Hung) -> Row {
         let mut row = Row { time, ..Row::default() };
+        let (mut lines, mut poses, mut points) = (Vec::new(), Vec::new(), Vec::new());
+        for part in parts {
+            lines.extend(part.lines);
+            poses.extend(part.bodies);
+            points.extend(part.points);
+        }
+        lines.sort_by_key(|line| line.index);
         for line in lines {
             row.outputs.push(line.outputs);
             row.nodes.push(line.nodes);
@@ -191,68 +222,75 @@ impl Row {
             row.node_rows.extend(line.node_rows);
             row.state = row.state.or(line.state);
         }
+        row.bodies = hung.bodies(time, &poses, &row.outputs);
+        points.sort_by_key(|(index, _)| *index);
+        row.points = points.into_iter().map(|(_, place)| place).collect();
+        row.cells.extend(row.bodies.iter().map(tables::body_cells));
+        row.cells.extend(row.points.iter().map(tables::point_cells));
         row
     }
 }
 
-/// All lines of a scene. They do not know of each other; their rows are gathered at the output times.
-struct MovingLines {
-    lines: Vec<MovingLine>,
+/// All parts of a scene. They do not know of each other; their rows are gathered at the output times.
+struct MovingParts {
+    parts: Vec<MovingPart>,
+    hung: Hung,
     /// The state that a CABLE file gives the first line.
     given: Option<Arc<LineState>>,
 }
 
-impl MovingLines {
-    fn new(loaded: &Loaded) -> Result<MovingLines, Error> {
-        let line = |index: &mut usize| {
-            let path = motion::Path::of_scene(loaded, *index);
-            let simulation = Simulation::on_path(&loaded.scene, *index, Some(&path))?;
-            Ok(MovingLine { name: loaded.scene.lines[*index].name.clone(), simulation, path, seconds: 0.0, stuck_at: None })
+impl MovingParts {
+    fn new(loaded: &Loaded) -> Result<MovingParts, Error> {
+        let part = |together: &mut Together| {
+            let part = Part::of_scene(loaded, together)?;
+            let names = part.lines().iter().map(|index| loaded.scene.lines[*index].name.clone()).collect();
+            Ok(MovingPart { part, names, seconds: 0.0, stuck_at: None })
         };
-        let mut indices: Vec<usize> = (0..loaded.scene.lines.len()).collect();
-        let lines = fleet::for_each(&mut indices, line).into_iter().collect::<Result<_, Error>>()?;
+        let mut parts = partition::parts(&loaded.scene);
+        let parts = fleet::for_each(&mut parts, part).into_iter().collect::<Result<_, Error>>()?;
         let dynamics = loaded.deck.as_ref().is_some_and(|deck| deck.job == Job::Dynamics);
-        Ok(MovingLines { lines, given: loaded.state.clone().filter(|_| dynamics) })
+        Ok(MovingParts { parts, hung: Hung::new(loaded), given: loaded.state.clone().filter(|_| dynamics) })
     }
 
-    /// Finds the equilibrium of all lines, or begins where a CABLE file says. Of a line that has no equilibrium, the best state found is
+    /// Finds the equilibrium of all parts, or begins where a CABLE file says. Of a line that has no equilibrium, the best state found is
     /// recorded.
     fn settle(&mut self, record: &mut Record) -> Result<(), Error> {
         let begin = record.scene.run.start;
         let exactly = record.scene.solver.scheme == Scheme::Cable1994;
         let started = Instant::now();
         let mut given = self.given.take();
-        let mut beginnings: Vec<_> = self.lines.iter_mut().map(|line| (line, given.take())).collect();
-        let departures = fleet::for_each(&mut beginnings, |(line, given)| {
-            let fairlead = line.path.at(begin).position;
-            match given {
-                Some(given) => departure::depart(&mut line.simulation, given, fairlead, exactly),
-                None => line.simulation.settle(fairlead, begin).map(Departure::Equilibrium),
+        let mut beginnings: Vec<_> = self.parts.iter_mut().map(|part| (part, given.take())).collect();
+        let departures = fleet::for_each(&mut beginnings, |(part, given)| match (&mut part.part, given) {
+            (Part::Alone { simulation, ends, .. }, Some(given)) => {
+                departure::depart(simulation, given, ends.fairlead.at(begin).position, exactly)
             }
+            (part, _) => part.settle(begin).map(Departure::Equilibrium),
         });
         record.statics_seconds += started.elapsed().as_secs_f64();
-        for ((line, departure), into) in self.lines.iter().zip(departures).zip(&mut record.lines) {
-            into.equilibrium = line.simulation.nodes();
+        for (part, departure) in self.parts.iter_mut().zip(departures) {
+            for (local, index) in part.part.lines().to_vec().into_iter().enumerate() {
+                record.lines[index].equilibrium = part.part.nodes(local);
+            }
             let departure = departure?;
             if let Departure::Equilibrium(report) | Departure::Foreign(report) = departure {
-                into.statics = Some(report);
+                part.part.lines().iter().for_each(|index| record.lines[*index].statics = Some(report));
             }
             record.scene_warnings.extend(remark(&departure).map(|remark| format!("{}: {remark}", record.file)));
         }
         Ok(())
     }
 
-    /// Notes the time spent, and the work of a line in the step that ended the run.
+    /// Notes the time spent, and the work of a part in the step that ended the run.
     fn account(&self, record: &mut Record) {
-        let seconds = self.lines.iter().map(|line| line.seconds);
+        let seconds = self.parts.iter().map(|part| part.seconds);
         record.line_seconds = seconds.clone().sum();
         record.solver_seconds =
-            (record.line_seconds / fleet::threads(self.lines.len()).max(1) as f64).max(seconds.fold(0.0, f64::max));
+            (record.line_seconds / fleet::threads(self.parts.len()).max(1) as f64).max(seconds.fold(0.0, f64::max));
         let end = record.end_time();
-        for (line, into) in
-            self.lines.iter().zip(&mut record.lines).filter(|(line, _)| line.stuck_at.is_some() && line.stuck_at == end)
-        {
-            into.counters = line.simulation.counters();
+        for part in self.parts.iter().filter(|part| part.stuck_at.is_some() && part.stuck_at == end) {
+            for (local, index) in part.part.lines().iter().enumerate() {
+                record.lines[*index].counters = part.part.counters(local);
+            }
         }
     }
 }
@@ -313,10 +351,12 @@ struct Tables {
 impl Tables {
     fn create(files: &Files, record: &Record, loaded: &Loaded, directory: &Path) -> Result<Tables, Error> {
         let names: Vec<&str> = record.lines.iter().map(|line| line.name.as_str()).collect();
+        let bodies: Vec<&str> = record.bodies.iter().map(|body| body.name.as_str()).collect();
+        let points: Vec<&str> = record.points.iter().map(|point| point.name.as_str()).collect();
         let scene = &record.scene;
         let walls = scene.solver.hydrostatic_strain || scene.line_types.values().any(|line_type| line_type.inner_fluid.is_some());
         Ok(Tables {
-            time_series: TimeSeries::new(tables::create(&files.time_series)?, &files.time_series, &names)?,
+            time_series: TimeSeries::new(tables::create(&files.time_series)?, &files.time_series, &names, &bodies, &points)?,
             nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes, walls)?,
             walls,
             cable: loaded.deck.clone().map(|deck| Ok((CableFiles::create(directory, &deck)?, deck))).transpose()?,
@@ -327,6 +367,7 @@ impl Tables {
     fn row(&mut self, record: &mut Record, row: &Row) -> Result<(), Error> {
         self.time_series.row(row.time, &row.cells)?;
         record.add_row(row.time, &row.outputs, &row.nodes);
+        record.add_bodies(&row.bodies, &row.points);
         record.count(&row.counters);
         if let (Some((files, _)), Some(state)) = (&mut self.cable, &row.state) {
             files.row(state)?;

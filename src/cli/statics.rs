@@ -7,8 +7,10 @@ use crate::report::record::touchdown;
 use crate::report::units::{ForceUnit, count};
 use crate::scene::read::Loaded;
 use crate::scene::types::{Scene, Triple};
-use crate::solve::motion::Path;
-use crate::solve::simulation::{NodeOutput, Outputs, Simulation};
+use crate::scene::bodies::Matrix;
+use crate::solve::mooring::Mooring;
+use crate::solve::simulation::{NodeOutput, Outputs};
+use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -20,6 +22,30 @@ struct Equilibrium {
     /// Largest unbalanced nodal force [N].
     residual: f64,
     lines: Vec<LineEquilibrium>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    bodies: Vec<BodyEquilibrium>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    points: Vec<PointEquilibrium>,
+}
+
+/// A body: where it is, and the force [N] and moment [N·m] of the lines on it about its reference point.
+#[derive(Serialize)]
+struct BodyEquilibrium {
+    name: String,
+    position: Triple,
+    attitude_deg: Triple,
+    force: Triple,
+    moment: Triple,
+    /// Of the mooring against the body, along global axes and about its reference point: minus the change of force and moment with its
+    /// displacement [N/m, N, N·m]; all else that is free follows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stiffness: Option<Matrix>,
+}
+
+#[derive(Serialize)]
+struct PointEquilibrium {
+    name: String,
+    position: Triple,
 }
 
 #[derive(Serialize)]
@@ -62,19 +88,23 @@ pub fn statics(arguments: &StaticsArguments) -> Result<(), Stop> {
     failure.map_or(Ok(()), |error| Err(Stop::Failed(error)))
 }
 
-/// The equilibrium of all lines, and the first failure to converge. Fails itself where a line cannot even be meshed.
+/// The equilibrium of all parts, and the first failure to converge. Fails itself where a line cannot even be meshed.
 fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
-    let mut equilibrium = Equilibrium { converged: true, iterations: 0, residual: 0.0, lines: Vec::new() };
+    let mut equilibrium =
+        Equilibrium { converged: true, iterations: 0, residual: 0.0, lines: Vec::new(), bodies: Vec::new(), points: Vec::new() };
     let mut failure = None;
-    for (index, line) in loaded.scene.lines.iter().enumerate() {
-        let mut simulation = Simulation::new(&loaded.scene, index)?;
-        let start = loaded.scene.run.start;
-        let fairlead = Path::of_scene(loaded, index).at(start).position;
-        let (converged, others, iterations, residual) = match simulation.settle(fairlead, start) {
+    let (scene, start) = (&loaded.scene, loaded.scene.run.start);
+    let (mut lines, mut poses, mut points) = (Vec::new(), Vec::new(), Vec::new());
+    let mut mooring = Mooring::new(loaded)?;
+    for part in &mut mooring.parts {
+        let (converged, others, iterations, residual) = match part.settle(start) {
             Ok(report) => (report.converged, report.others, report.iterations, report.residual),
             Err(error) => {
-                let Error::Statics(state) = &error else { return Err(error) };
-                let reached = (false, false, state.iterations, state.residual);
+                let reached = match &error {
+                    Error::Statics(state) => (false, false, state.iterations, state.residual),
+                    Error::Network(_) => (false, false, 0, 0.0),
+                    _ => return Err(error),
+                };
                 failure.get_or_insert(error);
                 reached
             }
@@ -82,8 +112,31 @@ fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
         equilibrium.converged &= converged;
         equilibrium.iterations += iterations;
         equilibrium.residual = equilibrium.residual.max(residual);
-        let found = line_equilibrium(&line.name, converged, &simulation.outputs(), &simulation.nodes());
-        equilibrium.lines.push(LineEquilibrium { others, ..found });
+        for (local, index) in part.lines().to_vec().into_iter().enumerate() {
+            let (outputs, nodes) = (part.outputs(local), part.nodes(local));
+            let found = line_equilibrium(&scene.lines[index].name, converged, &outputs, &nodes);
+            lines.push((index, outputs, LineEquilibrium { others, ..found }));
+        }
+        poses.extend(part.bodies());
+        points.extend(part.points());
+    }
+    lines.sort_by_key(|(index, ..)| *index);
+    let outputs: Vec<Outputs> = lines.iter().map(|(_, outputs, _)| *outputs).collect();
+    equilibrium.lines = lines.into_iter().map(|(.., line)| line).collect();
+    points.sort_by_key(|(index, _)| *index);
+    let point = |(index, place): (usize, Vector3<f64>)| PointEquilibrium { name: scene.points[index].name.clone(), position: place.into() };
+    equilibrium.points = points.into_iter().map(point).collect();
+    let bodies = mooring.bodies(start, &poses, &outputs);
+    for (index, body) in bodies.iter().enumerate() {
+        let stiffness = if failure.is_none() { mooring.stiffness(index, start) } else { None };
+        equilibrium.bodies.push(BodyEquilibrium {
+            name: scene.bodies[index].name.clone(),
+            position: body.pose.position.into(),
+            attitude_deg: body.pose.angles.map(f64::to_degrees).into(),
+            force: body.force.into(),
+            moment: body.moment.into(),
+            stiffness,
+        });
     }
     Ok((equilibrium, failure))
 }
@@ -121,10 +174,39 @@ fn tables(scene: &Scene, equilibrium: &Equilibrium) -> String {
         count(equilibrium.iterations, "iteration"),
         equilibrium.residual
     );
+    for body in &equilibrium.bodies {
+        body_table(&mut text, body);
+    }
+    for PointEquilibrium { name, position: [x, y, z] } in &equilibrium.points {
+        let _ = writeln!(text, "Point \"{}\" at x = {x:.3} m, y = {y:.3} m, z = {z:.3} m\n", on_terminal(name));
+    }
     for (index, line) in equilibrium.lines.iter().enumerate() {
         line_table(&mut text, line, touchdown(scene, index, line.grounded_length));
     }
     text
+}
+
+/// Adds a body's pose and loads to the text.
+fn body_table(text: &mut String, body: &BodyEquilibrium) {
+    let ([x, y, z], [roll, pitch, yaw]) = (body.position, body.attitude_deg);
+    let _ = writeln!(
+        text,
+        "Body \"{}\" at x = {x:.3} m, y = {y:.3} m, z = {z:.3} m, roll {roll:.3}, pitch {pitch:.3}, yaw {yaw:.3} deg",
+        on_terminal(&body.name)
+    );
+    let unit = ForceUnit::for_largest(body.force.iter().fold(0.0, |most: f64, force| most.max(force.abs())));
+    let [fx, fy, fz] = body.force.map(|force| unit.number(force));
+    let [mx, my, mz] = body.moment.map(|moment| unit.number(moment));
+    let _ = writeln!(text, "  force of the lines  {fx:>13}{fy:>13}{fz:>13}  [{}]", unit.symbol);
+    let _ = writeln!(text, "  moment              {mx:>13}{my:>13}{mz:>13}  [{} m]", unit.symbol);
+    if let Some(stiffness) = &body.stiffness {
+        let _ = writeln!(text, "  stiffness of the mooring [N/m, N, N m]");
+        for row in stiffness {
+            let numbers: String = row.iter().map(|k| format!("{k:>13.4e}")).collect();
+            let _ = writeln!(text, "  {numbers}");
+        }
+    }
+    let _ = writeln!(text);
 }
 
 /// Adds a line's end forces and nodes to the text.

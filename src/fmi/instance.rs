@@ -4,21 +4,20 @@
 
 use crate::error::Error;
 use crate::fmi::experiment::Experiment;
+use crate::fmi::body_variables::{BodyInput, Part, Said, number_of};
 use crate::fmi::filter::Filter;
-use crate::fmi::input_path::{InputPath, Plan};
+use crate::fmi::input_path::InputPath;
 use crate::fmi::inputs::Inputs;
 use crate::fmi::phase::{Call, Phase, StepStatus, allowed};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource;
-use crate::fmi::segment::Segment;
 use crate::fmi::snapshot::{End, Moment, State};
-use crate::fmi::variables::{DEFAULT_STEP, Interface, Interpolation, Kind, LOG_CATEGORIES, Meaning, Variable};
+use crate::fmi::variables::{DEFAULT_STEP, Interface, Kind, LOG_CATEGORIES, Meaning, Variable};
+use crate::fmi::vessel::Vessel;
 use crate::fmi::warnings::{self, Limits};
 use crate::scene::check;
 use crate::scene::types::{Motion, Scene};
-use crate::solve::motion::Path;
-use crate::solve::simulation::{LastStep, Linearised, Outputs, Simulation};
-use crate::solve::snapshot::Snapshot;
+use crate::solve::simulation::{LastStep, Outputs};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -34,46 +33,11 @@ pub struct Message {
     pub text: String,
 }
 
+mod bodies;
+mod built;
 mod step;
 
-/// The lines and what they were made from.
-struct Built {
-    lines: Vec<BuiltLine>,
-    parameters: Vec<f64>,
-    tolerance: Option<f64>,
-    interpolation: Interpolation,
-    /// Cut-off of the filter of the positions [Hz]; 0: none.
-    filter: f64,
-}
-
-/// One line, how it goes to the next communication point, and the last step that was differentiated.
-struct BuiltLine {
-    simulation: Simulation,
-    origin: [f64; 3],
-    route: Option<Route>,
-    path: Path,
-    limits: Limits,
-    linearised: Option<(f64, Segment, Linearised)>,
-}
-
-/// How a fairlead goes to the next communication point.
-#[derive(Clone)]
-struct Route {
-    plan: Plan,
-    segment: Segment,
-    /// What it goes by: the inputs, or what the filter makes of them.
-    inputs: Inputs,
-    filter: Filter,
-}
-
-impl BuiltLine {
-    /// Advances along the route.
-    fn advance(&mut self, until: f64) -> Result<(), Error> {
-        let Some(route) = &self.route else { return Ok(()) };
-        route.segment.write_to(&mut self.path);
-        self.simulation.advance(until, &self.path)
-    }
-}
+use built::Built;
 
 /// One or several mooring lines in the hands of a master.
 pub struct Instance {
@@ -196,7 +160,8 @@ impl Instance {
         self.settle().inspect_err(|_| self.moment.phase = Phase::Error)?;
         self.moment.phase = Phase::StepComplete;
         for index in 0..self.moment.ends.len() {
-            let Some(given) = self.interface.scene().lines.get(index).map(|line| line.fairlead) else { continue };
+            let given = self.interface.scene().lines.get(index).filter(|line| line.fairlead_on.is_none());
+            let Some(given) = given.map(|line| line.fairlead) else { continue };
             let length =
                 self.built.as_ref().and_then(|built| built.lines.get(index)).map_or(f64::INFINITY, |line| line.limits.length);
             let end = &mut self.moment.ends[index];
@@ -234,7 +199,8 @@ impl Instance {
         self.check(Call::Get)?;
         let computed = |instance: &Instance, reference: &u32| {
             let variable = instance.variable(*reference, kind)?;
-            Ok(matches!(variable.meaning, Meaning::Output(_) | Meaning::Local(_)).then(|| variable.name.clone()))
+            let is_computed = matches!(variable.meaning, Meaning::Output(_) | Meaning::Local(_) | Meaning::BodyOutput(_));
+            Ok(is_computed.then(|| variable.name.clone()))
         };
         let mut needs_line = None;
         for reference in references {
@@ -247,15 +213,18 @@ impl Instance {
         }
         for (reference, value) in references.iter().zip(values) {
             let variable = self.variable(*reference, kind)?;
-            let end = &self.moment.ends[variable.line];
+            let Moment { ends, vessels, parameters, .. } = &self.moment;
             *value = match variable.meaning {
                 Meaning::Input(input) => {
                     let (order, axis) = input.component();
-                    end.inputs.values[order][axis]
+                    ends[variable.line].inputs.values[order][axis]
                 }
-                Meaning::Output(output) => output.of(&end.outputs),
-                Meaning::Local(local) => local.of(&end.last),
-                Meaning::Parameter(_) | Meaning::Place(_) => self.moment.parameters[variable.slot],
+                Meaning::Output(output) => output.of(&ends[variable.line].outputs),
+                Meaning::Local(local) => local.of(&ends[variable.line].last),
+                Meaning::BodyInput(BodyInput::Motion(part, axis)) => vessels[variable.line].said.values[number_of(part)][axis],
+                Meaning::BodyInput(BodyInput::Applied(part, axis)) => vessels[variable.line].said.applied[part][axis],
+                Meaning::BodyOutput(output) => self.body_output(variable, output),
+                Meaning::Parameter(_) | Meaning::Place(_) | Meaning::Choice(_) => parameters[variable.slot],
             };
         }
         Ok(())
@@ -274,13 +243,23 @@ impl Instance {
                     let (order, axis) = input.component();
                     self.moment.ends[line].inputs.values[order][axis] = *value;
                 }
-                Meaning::Parameter(_) | Meaning::Place(_) => {
+                Meaning::BodyInput(BodyInput::Motion(part, axis)) => {
+                    self.moment.vessels[line].said.values[number_of(part)][axis] = *value;
+                }
+                Meaning::BodyInput(BodyInput::Applied(part, axis)) => {
+                    let applied = &mut self.moment.vessels[line].said.applied[part][axis];
+                    if *applied != *value && self.moment.phase != Phase::StepComplete {
+                        self.moment.settled = false;
+                    }
+                    *applied = *value;
+                }
+                Meaning::Parameter(_) | Meaning::Place(_) | Meaning::Choice(_) => {
                     if self.moment.parameters[slot] != *value {
                         self.moment.parameters[slot] = *value;
                         self.moment.settled = false;
                     }
                 }
-                Meaning::Output(_) | Meaning::Local(_) => {}
+                Meaning::Output(_) | Meaning::Local(_) | Meaning::BodyOutput(_) => {}
             }
         }
         Ok(())
@@ -289,12 +268,14 @@ impl Instance {
     fn may_set(&self, variable: &Variable, value: f64) -> Result<(), Refusal> {
         let name = || variable.name.clone();
         match variable.meaning {
-            Meaning::Output(_) => return Err(Refusal::Computed { name: name(), causality: "an output" }),
+            Meaning::Output(_) | Meaning::BodyOutput(_) => {
+                return Err(Refusal::Computed { name: name(), causality: "an output" });
+            }
             Meaning::Local(_) => return Err(Refusal::Computed { name: name(), causality: "a local variable" }),
-            Meaning::Parameter(_) | Meaning::Place(_) if self.moment.phase == Phase::StepComplete => {
+            _ if variable.is_parameter() && self.moment.phase == Phase::StepComplete => {
                 return Err(Refusal::Fixed { name: name() });
             }
-            Meaning::Parameter(_) | Meaning::Place(_) | Meaning::Input(_) => {}
+            _ => {}
         }
         if variable.min <= value && value <= variable.max {
             return Ok(());
@@ -306,59 +287,85 @@ impl Instance {
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Result<(), Refusal> {
         self.check(Call::SetInputDerivatives)?;
         let mut inputs: Vec<Inputs> = self.moment.ends.iter().map(|end| end.inputs).collect();
+        let mut said: Vec<Said> = self.moment.vessels.iter().map(|vessel| vessel.said).collect();
         for ((reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let variable = self.variable(*reference, Kind::Real)?;
             let name = || variable.name.clone();
-            let Meaning::Input(input) = variable.meaning else {
+            if !variable.is_input() {
                 return Err(Refusal::Order { name: name(), order, allowed: "only inputs have settable derivatives" });
-            };
+            }
             if !(1..=2).contains(&order) {
                 return Err(Refusal::Order { name: name(), order, allowed: "orders 1 and 2 can be set" });
             }
             if !value.is_finite() {
                 return Err(Refusal::Derivative { name: name(), order, value });
             }
-            let (component, axis) = input.component();
-            inputs[variable.line].derivatives[order as usize - 1][component][axis] = Some(value);
+            match variable.meaning {
+                Meaning::Input(input) => {
+                    let (component, axis) = input.component();
+                    inputs[variable.line].derivatives[order as usize - 1][component][axis] = Some(value);
+                }
+                Meaning::BodyInput(BodyInput::Motion(part @ (Part::Position | Part::Attitude), axis)) => {
+                    said[variable.line].derivatives[order as usize - 1][number_of(part)][axis] = Some(value);
+                }
+                _ => {
+                    let allowed = "of a body, position and attitude have settable derivatives";
+                    return Err(Refusal::Order { name: name(), order, allowed });
+                }
+            }
         }
+        self.moment.vessels.iter_mut().zip(said).for_each(|(vessel, said)| vessel.said = said);
         self.moment.ends.iter_mut().zip(inputs).for_each(|(end, inputs)| end.inputs = inputs);
         Ok(())
     }
 
     /// First time derivatives of outputs.
-    pub fn output_derivatives(&self, references: &[u32], orders: &[i32], values: &mut [f64]) -> Result<(), Refusal> {
+    pub fn output_derivatives(&mut self, references: &[u32], orders: &[i32], values: &mut [f64]) -> Result<(), Refusal> {
         self.check(Call::GetOutputDerivatives)?;
         let mut rates: Vec<Option<Outputs>> = vec![None; self.moment.ends.len()];
         for ((reference, &order), value) in references.iter().zip(orders).zip(values) {
             let variable = self.variable(*reference, Kind::Real)?;
             let refuse = |allowed| Refusal::Order { name: variable.name.clone(), order, allowed };
-            let Meaning::Output(output) = variable.meaning else {
+            if !variable.is_output() {
                 return Err(refuse("only outputs have derivatives to be read"));
-            };
+            }
             if order != 1 {
                 return Err(refuse("order 1 is available"));
             }
-            let line = self.built.as_ref().and_then(|built| built.lines.get(variable.line));
-            let rates = &mut rates[variable.line];
-            *rates = rates.or_else(|| line.map(|line| line.simulation.output_rates()));
-            *value = rates.as_ref().map_or(0.0, |rates| output.of(rates));
+            let (meaning, line) = (variable.meaning, variable.line);
+            *value = match meaning {
+                Meaning::Output(output) => {
+                    let rates = &mut rates[line];
+                    *rates = rates.or_else(|| self.built.as_mut().map(|built| built.output_rates(line)));
+                    rates.as_ref().map_or(0.0, |rates| output.of(rates))
+                }
+                Meaning::BodyOutput(output) => self.body_rate(line, output),
+                _ => 0.0,
+            };
         }
         Ok(())
     }
 
     /// Makes the lines, if parameters or positions changed since, and puts them in equilibrium at rest at the start time.
     fn settle(&mut self) -> Result<(), Refusal> {
-        let unmoved = self.moment.ends.iter().all(|end| end.origin == end.inputs.values[0]);
+        let placed = |vessel: &Vessel| vessel.origin == [vessel.said.values[0], vessel.said.values[1]];
+        let unmoved = self.moment.ends.iter().all(|end| end.origin == end.inputs.values[0]) && self.moment.vessels.iter().all(placed);
         if self.moment.settled && unmoved && self.built.is_some() {
             return Ok(());
         }
         self.moment.settled = false;
         self.moment.ends.iter_mut().for_each(|end| end.origin = end.inputs.values[0]);
+        self.moment.vessels.iter_mut().for_each(|vessel| vessel.origin = [vessel.said.values[0], vessel.said.values[1]]);
         let start = self.moment.experiment.start;
         let mut built = self.build()?;
-        for (index, line) in built.lines.iter_mut().enumerate() {
-            let report = line.simulation.settle(line.origin.into(), start).map_err(|error| self.refusal(error))?;
-            let outputs = line.simulation.observe();
+        for (vessel, of) in self.moment.vessels.iter_mut().zip(&built.vessels) {
+            let index = built.vessels.iter().position(|other| std::ptr::eq(other, of)).unwrap_or(0);
+            vessel.settle(&built.conventions[index], of.arm, start);
+        }
+        let said: Vec<Said> = self.moment.vessels.iter().map(|vessel| vessel.said).collect();
+        let reports = built.settle(start, &said).map_err(|error| self.refusal(error))?;
+        for (index, report) in reports.into_iter().enumerate() {
+            let (outputs, _) = built.outputs(index);
             if !is_finite(&outputs) {
                 return Err(Refusal::NotANumber { line: self.interface.prefix(index), until: start });
             }
@@ -371,6 +378,7 @@ impl Instance {
                 outputs.tension,
                 outputs.anchor_tension
             ));
+            let line = &mut built.lines[index];
             line.limits = Limits { tension: outputs.tension, grounded: outputs.grounded_length, ..line.limits };
             let end = &mut self.moment.ends[index];
             *end = End {
@@ -382,6 +390,7 @@ impl Instance {
             };
         }
         self.built = Some(built);
+        self.reach(start);
         self.moment.clock = start;
         self.moment.settled = true;
         Ok(())
@@ -389,30 +398,31 @@ impl Instance {
 
     /// The lines that the parameters describe, with their fairleads at the moment's origins.
     fn build(&self) -> Result<Built, Refusal> {
-        let Moment { parameters, ends, experiment, .. } = &self.moment;
+        let Moment { parameters, ends, experiment, vessels, .. } = &self.moment;
         let settings = self.interface.settings(parameters).map_err(|reason| Refusal::Parameter {
             name: "of the scene".to_owned(),
             value: "the combination".to_owned(),
             allowed: reason,
         })?;
+        let conventions = self.interface.conventions(parameters);
         let mut scene = settings.scene;
         let default_tolerance = self.interface.scene().solver.tolerance;
         if let Some(tolerance) = experiment.tolerance.filter(|_| scene.solver.tolerance == default_tolerance) {
             scene.solver.tolerance = tolerance.clamp(1e-8, 0.1);
         }
         scene.lines.iter_mut().zip(ends).for_each(|(line, end)| line.fairlead = end.origin);
+        for (index, body) in scene.bodies.iter_mut().enumerate().filter(|(_, body)| !body.is_free()) {
+            let [position, angles] = vessels[index].origin.map(|values| conventions[index].turned(values));
+            (body.position, body.attitude_deg) = (position, angles.map(f64::to_degrees));
+        }
+        scene.place_ends();
         // The scene's own motion says where the line will go, which the mesh is made for; the master may move it otherwise.
         check::check(&Scene { motion: Motion::Fixed, ..scene.clone() }, "parameters").map_err(|error| self.refusal(error))?;
-        let build = |(index, end): (usize, &End)| {
-            let mut simulation = Simulation::new(&scene, index).map_err(|error| self.refusal(error))?;
-            simulation.sum_up_work();
-            let path = Path::Fixed(end.origin.into());
-            let limits = limits(&scene, index, &simulation);
-            Ok(BuiltLine { simulation, origin: end.origin, route: None, path, limits, linearised: None })
-        };
-        let lines = ends.iter().enumerate().map(build).collect::<Result<Vec<_>, Refusal>>()?;
         let (parameters, tolerance) = (parameters.clone(), experiment.tolerance);
-        Ok(Built { lines, parameters, tolerance, interpolation: settings.interpolation, filter: settings.filter })
+        let (interpolation, filter) = (settings.interpolation, settings.filter);
+        let (lines, groups) = (Vec::new(), Vec::new());
+        let empty = Built { lines, groups, vessels: Vec::new(), conventions, parameters, tolerance, interpolation, filter };
+        Built::new(&scene, vessels, empty).map_err(|error| self.refusal(error))
     }
 
     /// An error of the layers below, with the parameter's name where it speaks of a place in the scene.
@@ -452,9 +462,10 @@ impl Instance {
         let state = self.states.get_mut(&handle).ok_or(Refusal::UnknownState)?;
         state.moment.copy_from(&self.moment);
         let running = matches!(self.moment.phase, Phase::StepComplete | Phase::StepFailed | Phase::Terminated);
-        let lines = self.built.as_mut().filter(|_| running).map_or(&mut [][..], |built| &mut built.lines);
-        state.lines.resize_with(lines.len(), || Snapshot::new(2));
-        lines.iter_mut().zip(&mut state.lines).for_each(|(line, snapshot)| line.simulation.save(snapshot));
+        match self.built.as_ref().filter(|_| running) {
+            Some(built) => built.save(&mut state.lines),
+            None => state.lines.clear(),
+        }
         Ok(handle)
     }
 
@@ -483,7 +494,8 @@ impl Instance {
         }
         let fits = |built: &Built| {
             let placed = built.lines.iter().zip(&moment.ends).all(|(line, end)| line.origin == end.origin);
-            placed && built.parameters == moment.parameters && built.tolerance == moment.experiment.tolerance
+            let moored = built.vessels.iter().zip(&moment.vessels).all(|(of, vessel)| of.origin == vessel.origin);
+            placed && moored && built.parameters == moment.parameters && built.tolerance == moment.experiment.tolerance
         };
         if !self.built.as_ref().is_some_and(fits) {
             let present = std::mem::replace(&mut self.moment, moment.clone());
@@ -496,14 +508,11 @@ impl Instance {
             }
             self.moment = present;
         }
-        let built = self.built.as_mut().map_or(&mut [][..], |built| &mut built.lines);
-        if !built.iter().zip(lines).all(|(line, snapshot)| line.simulation.fits(snapshot)) {
+        let Some(built) = self.built.as_mut() else { return Err(Refusal::UnknownState) };
+        if !built.fits(lines) {
             return Err(Refusal::Serialized("its line has another mesh"));
         }
-        for (line, snapshot) in built.iter_mut().zip(lines) {
-            line.simulation.restore(snapshot);
-            line.linearised = None;
-        }
+        built.restore(lines);
         self.moment.copy_from(moment);
         Ok(())
     }
@@ -521,22 +530,8 @@ impl Instance {
 
     /// A state from bytes, under a new handle.
     pub fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Refusal> {
-        let state = State::from_bytes(bytes, self.fingerprint, self.moment.parameters.len(), self.moment.ends.len())?;
+        let state = State::from_bytes(bytes, self.fingerprint, &self.moment)?;
         Ok(self.keep(state))
-    }
-}
-
-/// What a line bears, and what it carries now.
-fn limits(scene: &Scene, index: usize, simulation: &Simulation) -> Limits {
-    let sections = scene.lines.get(index).map_or(&[][..], |line| &line.sections);
-    let loads = sections.iter().filter_map(|section| scene.line_types.get(&section.line_type)?.breaking_load);
-    let length = sections.iter().map(|section| section.length).sum();
-    let outputs = simulation.outputs();
-    Limits {
-        breaking_load: loads.fold(f64::INFINITY, f64::min),
-        length,
-        tension: outputs.tension,
-        grounded: outputs.grounded_length,
     }
 }
 
@@ -558,6 +553,8 @@ fn first_moment(interface: &Interface) -> Moment {
         parameters: interface.start_values(),
         settled: false,
         ends: inputs.into_iter().map(End::at_rest).collect(),
+        vessels: interface.said_first().into_iter().map(Vessel::at_rest).collect(),
+        points: Vec::new(),
     }
 }
 

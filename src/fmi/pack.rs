@@ -4,7 +4,10 @@
 use crate::error::Error;
 use crate::fmi::resource::{SCENE_FILE, guid};
 use crate::fmi::variables::{Interface, Kind, MODEL_DESCRIPTION, MOST_LINES, Meaning, Variable};
+use crate::fmi::body_variables::{self, Row};
+use crate::scene::bodies::{BodyMotion, Mount, PointMotion};
 use crate::scene::types::{Motion, Scene};
+use crate::solve::partition;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::Write;
@@ -115,7 +118,7 @@ pub fn pack(scene: &Scene, name: &str, naming: Naming, libraries: &Libraries, ou
             allowed: format!("an FMU holds 1 to {MOST_LINES} lines"),
         });
     }
-    if let Some(index) = scene.lines.iter().position(|line| !line.is_pinned(0.0)) {
+    if let Some(index) = scene.lines.iter().position(|line| !line.is_pinned(0.0) && line.fairlead_on.is_none()) {
         return Err(Error::Value {
             file: name.to_owned(),
             place: format!("lines[{index}].constraints"),
@@ -179,6 +182,16 @@ fn self_contained(scene: &Scene) -> Scene {
     if let Motion::File { .. } = scene.motion {
         scene.motion = Motion::Fixed;
     }
+    for body in &mut scene.bodies {
+        if let BodyMotion::File { .. } = body.motion {
+            body.motion = BodyMotion::Fixed;
+        }
+    }
+    for point in &mut scene.points {
+        if !point.is_free() {
+            point.motion = PointMotion::Fixed;
+        }
+    }
     scene
 }
 
@@ -204,7 +217,7 @@ pub fn render(scene: &Scene, name: &str, date: &str) -> String {
         if variable.is_of_scene() {
             text.push_str(&remark.take().unwrap_or_default());
         }
-        text.push_str(&format!("    <!-- {index} -->\n{}", description_of(variable)));
+        text.push_str(&format!("    <!-- {index} -->\n{}", description_of(variable, &interface)));
     }
     text.push_str("  </ModelVariables>\n\n");
     text.push_str(&model_structure(&interface));
@@ -232,7 +245,7 @@ fn named(description: String, naming: Naming) -> String {
 
 /// The element of a variable: that of modelDescription.xml with its name, value reference and start value, or, for a quantity of the
 /// scene, a new one.
-fn description_of(variable: &Variable) -> String {
+fn description_of(variable: &Variable, interface: &Interface) -> String {
     let (name, reference, start) = (escaped(&variable.name), variable.reference.to_string(), variable.start.to_string());
     if let Meaning::Place(_) = variable.meaning {
         let kind = if variable.kind == Kind::Real { "Real" } else { "Integer" };
@@ -242,6 +255,9 @@ fn description_of(variable: &Variable) -> String {
              </ScalarVariable>\n",
             variable.min, variable.max
         );
+    }
+    if let Some(row) = row_of(variable, interface.scene()) {
+        return row.element(&name, variable.reference, variable.start);
     }
     let head = format!("    <ScalarVariable name=\"{}\"", variable.stem);
     let element = MODEL_DESCRIPTION.lines().skip_while(|line| !line.starts_with(&head)).take(3);
@@ -253,6 +269,21 @@ fn description_of(variable: &Variable) -> String {
     changed.map(|line| line + "\n").collect()
 }
 
+/// The row of the table that a variable of a body or point comes from.
+fn row_of(variable: &Variable, scene: &Scene) -> Option<Row> {
+    let (rows, first) = match variable.meaning {
+        Meaning::BodyOutput(body_variables::BodyOutput::Point(..)) => {
+            (body_variables::of_point(), body_variables::block_of_point(scene, variable.line))
+        }
+        Meaning::BodyInput(_) | Meaning::BodyOutput(_) | Meaning::Choice(_) => {
+            let free = scene.bodies.get(variable.line)?.is_free();
+            (body_variables::of_body(free), body_variables::block_of_body(scene, variable.line))
+        }
+        _ => return None,
+    };
+    rows.into_iter().find(|row| first + row.offset == variable.reference)
+}
+
 /// Where the documentation names the variables.
 const VARIABLES: &str = "<!-- variables -->";
 
@@ -262,7 +293,7 @@ fn documentation(interface: &Interface, naming: Naming) -> String {
         "<table>\n<tr><th>name</th><th>reference</th><th>causality</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
     );
     for variable in interface.variables() {
-        let element = description_of(variable);
+        let element = description_of(variable, interface);
         let of = |name: &str| element.lines().find_map(|line| attribute(line, name)).unwrap_or_default().to_owned();
         let unit = match of("declaredType").as_str() {
             "Position" => "m".to_owned(),
@@ -283,18 +314,62 @@ fn documentation(interface: &Interface, naming: Naming) -> String {
     DOCUMENTATION.replace(VARIABLES, &(rows + "</table>"))
 }
 
-/// Which output depends on which input: those of its own line.
+/// Which output depends on which input: those of what drives its own line, or the lines that hang on its body.
 fn model_structure(interface: &Interface) -> String {
+    let scene = interface.scene();
     let variables = || (1..).zip(interface.variables());
-    let outputs = || variables().filter(|(_, variable)| matches!(variable.meaning, Meaning::Output(_)));
-    let of_line = |line: usize| {
-        let inputs = variables().filter(|(_, variable)| variable.line == line && matches!(variable.meaning, Meaning::Input(_)));
+    let outputs = || variables().filter(|(_, variable)| variable.is_output());
+    // Of each line, the lines that move with it, and the bodies that drive or are these.
+    let mut together: Vec<(Vec<usize>, Vec<usize>)> = vec![(Vec::new(), Vec::new()); scene.lines.len()];
+    for part in partition::parts(scene) {
+        let on = |mount: &Option<Mount>| match mount {
+            Some(Mount::Body { body, .. }) => scene.body(body),
+            _ => None,
+        };
+        let ends = |index: &usize| [on(&scene.lines[*index].fairlead_on), on(&scene.lines[*index].anchor_on)];
+        let mut bodies: Vec<usize> = part.lines.iter().flat_map(ends).flatten().collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        part.lines.iter().for_each(|line| together[*line] = (part.lines.clone(), bodies.clone()));
+    }
+    let inputs_of = |lines: &[usize], bodies: &[usize]| -> String {
+        let own = |variable: &Variable| match variable.meaning {
+            Meaning::Input(_) => lines.contains(&variable.line),
+            Meaning::BodyInput(_) => bodies.contains(&variable.line),
+            _ => false,
+        };
+        let inputs = variables().filter(|(_, variable)| own(variable));
         inputs.map(|(index, _): (usize, _)| index.to_string()).collect::<Vec<_>>().join(" ")
     };
-    let inputs: Vec<String> = (0..interface.lines()).map(of_line).collect();
+    let of_lines: Vec<String> = together.iter().map(|(lines, bodies)| inputs_of(lines, bodies)).collect();
+    let of_things = |hung: &dyn Fn(&Option<Mount>) -> bool, own: Option<usize>| {
+        let hanging = scene.lines.iter().enumerate().filter(|(_, line)| hung(&line.fairlead_on) || hung(&line.anchor_on));
+        let (mut lines, mut bodies) = (Vec::new(), own.into_iter().collect::<Vec<usize>>());
+        for (index, _) in hanging {
+            lines.extend(&together[index].0);
+            bodies.extend(&together[index].1);
+        }
+        inputs_of(&lines, &bodies)
+    };
+    let of_bodies: Vec<String> = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .map(|(index, body)| of_things(&|on| matches!(on, Some(Mount::Body { body: name, .. }) if *name == body.name), Some(index)))
+        .collect();
+    let of_points: Vec<String> = scene
+        .points
+        .iter()
+        .map(|point| of_things(&|on| matches!(on, Some(Mount::Point { point: name }) if *name == point.name), None))
+        .collect();
     let mut text = String::from("  <ModelStructure>\n    <Outputs>\n");
     for (index, output) in outputs() {
-        text.push_str(&format!("      <Unknown index=\"{index}\" dependencies=\"{}\"/>\n", inputs[output.line]));
+        let inputs = match output.meaning {
+            Meaning::BodyOutput(body_variables::BodyOutput::Point(..)) => &of_points[output.line],
+            Meaning::BodyOutput(_) => &of_bodies[output.line],
+            _ => &of_lines[output.line],
+        };
+        text.push_str(&format!("      <Unknown index=\"{index}\" dependencies=\"{inputs}\"/>\n"));
     }
     text.push_str("    </Outputs>\n    <InitialUnknowns>\n");
     outputs().for_each(|(index, _)| text.push_str(&format!("      <Unknown index=\"{index}\"/>\n")));
@@ -322,7 +397,8 @@ fn escaped(text: &str) -> String {
 /// The port of each fairlead: a pair of force and velocity, which one connection of a system structure joins to a vessel's.
 fn osp_description(interface: &Interface) -> String {
     let mut groups = String::new();
-    for line in 0..interface.lines() {
+    let scene = interface.scene();
+    for line in (0..interface.lines()).filter(|line| scene.lines[*line].fairlead_on.is_none()) {
         let prefix = escaped(&interface.prefix(line));
         let variables = |indent: usize, stem: &str| -> String {
             ["x", "y", "z"].map(|axis| format!("{:indent$}<Variable ref=\"{prefix}{stem}.{axis}\"/>\n", "")).concat()
@@ -334,6 +410,26 @@ fn osp_description(interface: &Interface) -> String {
             variables(8, "force"),
             variables(8, "fairlead.velocity"),
             variables(6, "fairlead.position"),
+        );
+    }
+    for index in (0..scene.bodies.len()).filter(|index| !scene.bodies[*index].is_free()) {
+        let name = escaped(&interface.body_prefix(index));
+        let variables = |indent: usize, stem: &str, axes: [&str; 3]| -> String {
+            axes.map(|axis| format!("{:indent$}<Variable ref=\"{name}{stem}.{axis}\"/>\n", "")).concat()
+        };
+        let (axes, angles) = (["x", "y", "z"], ["roll", "pitch", "yaw"]);
+        groups += &format!(
+            "    <LinearMechanicalPort name=\"{name}linear\">\n      <Force name=\"{name}force\">\n{}      </Force>\n      \
+             <LinearVelocity name=\"{name}velocity\">\n{}      </LinearVelocity>\n    </LinearMechanicalPort>\n    \
+             <AngularMechanicalPort name=\"{name}angular\">\n      <Torque name=\"{name}moment\">\n{}      </Torque>\n      \
+             <AngularVelocity name=\"{name}angular velocity\">\n{}      </AngularVelocity>\n    </AngularMechanicalPort>\n    \
+             <Generic name=\"{name}position\">\n{}    </Generic>\n    <Generic name=\"{name}attitude\">\n{}    </Generic>\n",
+            variables(8, "force", axes),
+            variables(8, "velocity", axes),
+            variables(8, "moment", axes),
+            variables(8, "angular_velocity", axes),
+            variables(6, "position", axes),
+            variables(6, "attitude", angles),
         );
     }
     format!(

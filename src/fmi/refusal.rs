@@ -112,6 +112,32 @@ pub enum Refusal {
         /// Ours [s].
         clock: f64,
     },
+    /// A body is given a pose far from where it is.
+    #[error(
+        "{body} is given {distance:.1} m from where it is at t = {time:?} s: no step goes farther than 100 m. Are the axes and units those of \
+         modelDescription.xml? Nothing was done; set the pose and step again"
+    )]
+    PoseJump {
+        /// The body.
+        body: String,
+        /// Communication point [s].
+        time: f64,
+        /// How far [m].
+        distance: f64,
+    },
+    /// A body is given an attitude far from its own.
+    #[error(
+        "{body} is given an attitude {degrees:.0} degrees from its own at t = {time:?} s: no step turns farther than 90. Are angles in radians, and \
+         roll, pitch, yaw in this order? Nothing was done; set the pose and step again"
+    )]
+    PoseTurn {
+        /// The body.
+        body: String,
+        /// Communication point [s].
+        time: f64,
+        /// By how much [deg].
+        degrees: f64,
+    },
     /// The step would end after the experiment.
     #[error("a step of {step:?} s from t = {time:?} s ends after the stop time {stop:?} s of fmi2SetupExperiment")]
     PastStop {

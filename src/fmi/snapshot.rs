@@ -3,6 +3,7 @@
 //! Bytes, little-endian: magic (8), version (4), fingerprint of scene and interface (16), length of what follows (8), the state,
 //! checksum over all before it (16). Text of the instance's log and other handed-out states are not part of it.
 
+use crate::fmi::body_variables::Said;
 use crate::fmi::experiment::Experiment;
 use crate::fmi::filter::Filter;
 use crate::fmi::fit::{Fit, Point};
@@ -12,6 +13,7 @@ use crate::fmi::inputs::Inputs;
 use crate::fmi::phase::{Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::resource::fingerprint;
+use crate::fmi::vessel::{Reached, Vessel};
 use crate::fmi::warnings::Told;
 use crate::solve::simulation::{LastStep, Outputs};
 use crate::solve::snapshot::Snapshot;
@@ -41,6 +43,10 @@ pub struct Moment {
     pub settled: bool,
     /// What each line has of its own.
     pub ends: Vec<End>,
+    /// What each body has of its own.
+    pub vessels: Vec<Vessel>,
+    /// Free points: number in the scene, position [m] and velocity [m/s].
+    pub points: Vec<(usize, [Vector3<f64>; 2])>,
 }
 
 /// The upper end of a line as the master sees it.
@@ -98,7 +104,8 @@ impl State {
     }
 
     /// Reads bytes that `to_bytes` wrote; anything else, damaged by as little as a bit, is refused.
-    pub fn from_bytes(bytes: &[u8], scene: u128, parameters: usize, lines: usize) -> Result<State, Refusal> {
+    /// `like`: a moment of the instance that will take it.
+    pub fn from_bytes(bytes: &[u8], scene: u128, like: &Moment) -> Result<State, Refusal> {
         let refuse = |reason| Err(Refusal::Serialized(reason));
         if !bytes.starts_with(MAGIC) {
             return refuse("it was not written by moorline");
@@ -120,17 +127,19 @@ impl State {
         if written_for != Some(scene) {
             return refuse("it belongs to an FMU of another scene or interface");
         }
-        Self::read(&mut reader, parameters, lines).map_or_else(|| refuse("its content makes no sense"), Ok)
+        Self::read(&mut reader, like).map_or_else(|| refuse("its content makes no sense"), Ok)
     }
 
-    fn read(reader: &mut Reader<'_>, parameters: usize, ends: usize) -> Option<State> {
+    fn read(reader: &mut Reader<'_>, like: &Moment) -> Option<State> {
+        let (parameters, ends, vessels) = (like.parameters.len(), like.ends.len(), like.vessels.len());
         let moment = Moment::read(reader)?;
-        let count = reader.count().filter(|count| *count == 0 || *count == ends)?;
+        let count = reader.count().filter(|count| *count <= ends + vessels)?;
         let lines = reader.several(count, |reader| {
             let length = reader.count()?;
             Snapshot::from_bytes(reader.take(length)?)
         })?;
-        let fits = moment.parameters.len() == parameters && moment.ends.len() == ends && reader.0.is_empty();
+        let alike = moment.parameters.len() == parameters && moment.ends.len() == ends && moment.vessels.len() == vessels;
+        let fits = alike && reader.0.is_empty();
         fits.then_some(State { moment, lines })
     }
 }
@@ -138,12 +147,15 @@ impl State {
 impl Moment {
     /// Becomes another moment of the same instance; in the long run it allocates nothing.
     pub fn copy_from(&mut self, other: &Moment) {
-        let Moment { phase, experiment, clock, last_step_size, step_status, parameters, settled, ends } = other;
+        let Moment { phase, experiment, clock, last_step_size, step_status, parameters, settled, ends, vessels, points } = other;
         (self.phase, self.experiment, self.clock, self.last_step_size) = (*phase, *experiment, *clock, *last_step_size);
         (self.step_status, self.settled) = (*step_status, *settled);
         self.parameters.clone_from(parameters);
         self.ends.resize_with(ends.len(), || End::at_rest(Inputs::default()));
         self.ends.iter_mut().zip(ends).for_each(|(end, other)| end.copy_from(other));
+        self.vessels.resize_with(vessels.len(), || Vessel::at_rest(Said::default()));
+        self.vessels.iter_mut().zip(vessels).for_each(|(vessel, other)| vessel.copy_from(other));
+        self.points.clone_from(points);
     }
 
     fn write(&self, writer: &mut Writer) {
@@ -159,6 +171,13 @@ impl Moment {
         writer.flag(self.settled);
         writer.count(self.ends.len());
         self.ends.iter().for_each(|end| end.write(writer));
+        writer.count(self.vessels.len());
+        self.vessels.iter().for_each(|vessel| write_vessel(vessel, writer));
+        writer.count(self.points.len());
+        for (number, motion) in &self.points {
+            writer.count(*number);
+            motion.iter().for_each(|vector| writer.triple((*vector).into()));
+        }
     }
 
     fn read(reader: &mut Reader<'_>) -> Option<Moment> {
@@ -171,7 +190,12 @@ impl Moment {
         let settled = reader.flag()?;
         let count = reader.count()?;
         let ends = reader.several(count, End::read)?;
-        Some(Moment { phase, experiment, clock, last_step_size, step_status, parameters, settled, ends })
+        let count = reader.count()?;
+        let vessels = reader.several(count, read_vessel)?;
+        let count = reader.count()?;
+        let point = |reader: &mut Reader<'_>| Some((reader.count()?, [reader.triple()?.into(), reader.triple()?.into()]));
+        let points = reader.several(count, point)?;
+        Some(Moment { phase, experiment, clock, last_step_size, step_status, parameters, settled, ends, vessels, points })
     }
 }
 
@@ -215,25 +239,8 @@ impl End {
         writer.triple(self.origin);
         self.inputs.values.iter().for_each(|value| writer.triple(*value));
         self.inputs.derivatives.iter().flatten().flatten().for_each(|value| writer.option(*value));
-        writer.triple(self.path.position);
-        writer.triple(self.path.velocity);
-        writer.flag(self.path.velocity_given);
-        writer.count(self.path.samples.len());
-        for sample in &self.path.samples {
-            writer.real(sample.time);
-            writer.triple(sample.position);
-            writer.triple(sample.velocity);
-            sample.fresh.into_iter().for_each(|fresh| writer.flag(fresh));
-        }
-        writer.real(self.path.absorbed);
-        writer.real(self.path.stepped);
-        writer.real(self.path.pace.last);
-        self.path.pace.intervals.iter().for_each(|interval| writer.real(*interval));
-        writer.count(self.path.pace.slower as usize);
-        writer.flag(self.path.axes.is_some());
-        self.path.axes.iter().flatten().for_each(|axis| write_axis(axis, writer));
-        writer.real(self.filter.time);
-        [self.filter.given, self.filter.position, self.filter.velocity].into_iter().for_each(|value| writer.triple(value));
+        write_path(&self.path, writer);
+        write_filter(&self.filter, writer);
         writer.count(self.told.0 as usize);
         let o = &self.outputs;
         writer.real(o.time);
@@ -251,19 +258,7 @@ impl End {
         for slot in inputs.derivatives.iter_mut().flatten().flatten() {
             *slot = reader.option()?;
         }
-        let (position, velocity, velocity_given) = (reader.triple()?, reader.triple()?, reader.flag()?);
-        let count = reader.count().filter(|count| *count <= CAPACITY)?;
-        let sample = |reader: &mut Reader<'_>| {
-            let (time, position, velocity) = (reader.real()?, reader.triple()?, reader.triple()?);
-            Some(Sample { time, position, velocity, fresh: [reader.flag()?, reader.flag()?, reader.flag()?] })
-        };
-        let samples = reader.several(count, sample)?;
-        let (absorbed, stepped) = (reader.real()?, reader.real()?);
-        let pace = Pace { last: reader.real()?, intervals: reader.reals()?, slower: reader.number()? };
-        let axes = if reader.flag()? { Some([read_axis(reader)?, read_axis(reader)?, read_axis(reader)?]) } else { None };
-        let path = InputPath { samples, position, velocity, velocity_given, axes, absorbed, stepped, pace };
-        let (since, given, position, velocity) = (reader.real()?, reader.triple()?, reader.triple()?, reader.triple()?);
-        let filter = Filter { time: since, given, position, velocity };
+        let (path, filter) = (read_path(reader)?, read_filter(reader)?);
         let told = Told(reader.number()?);
         let time = reader.real()?;
         let mut vector = || reader.triple().map(Vector3::from);
@@ -285,6 +280,80 @@ impl End {
         let last = LastStep { substeps: reader.count()?, newton_iterations: reader.count()?, error_estimate: reader.real()? };
         Some(End { origin, inputs, path, filter, told, outputs, last })
     }
+}
+
+fn write_path(path: &InputPath, writer: &mut Writer) {
+    writer.triple(path.position);
+    writer.triple(path.velocity);
+    writer.flag(path.velocity_given);
+    writer.count(path.samples.len());
+    for sample in &path.samples {
+        writer.real(sample.time);
+        writer.triple(sample.position);
+        writer.triple(sample.velocity);
+        sample.fresh.into_iter().for_each(|fresh| writer.flag(fresh));
+    }
+    writer.real(path.absorbed);
+    writer.real(path.stepped);
+    writer.real(path.pace.last);
+    path.pace.intervals.iter().for_each(|interval| writer.real(*interval));
+    writer.count(path.pace.slower as usize);
+    writer.flag(path.axes.is_some());
+    path.axes.iter().flatten().for_each(|axis| write_axis(axis, writer));
+}
+
+fn read_path(reader: &mut Reader<'_>) -> Option<InputPath> {
+    let (position, velocity, velocity_given) = (reader.triple()?, reader.triple()?, reader.flag()?);
+    let count = reader.count().filter(|count| *count <= CAPACITY)?;
+    let sample = |reader: &mut Reader<'_>| {
+        let (time, position, velocity) = (reader.real()?, reader.triple()?, reader.triple()?);
+        Some(Sample { time, position, velocity, fresh: [reader.flag()?, reader.flag()?, reader.flag()?] })
+    };
+    let samples = reader.several(count, sample)?;
+    let (absorbed, stepped) = (reader.real()?, reader.real()?);
+    let pace = Pace { last: reader.real()?, intervals: reader.reals()?, slower: reader.number()? };
+    let axes = if reader.flag()? { Some([read_axis(reader)?, read_axis(reader)?, read_axis(reader)?]) } else { None };
+    Some(InputPath { samples, position, velocity, velocity_given, axes, absorbed, stepped, pace })
+}
+
+fn write_filter(filter: &Filter, writer: &mut Writer) {
+    writer.real(filter.time);
+    [filter.given, filter.position, filter.velocity].into_iter().for_each(|value| writer.triple(value));
+}
+
+fn read_filter(reader: &mut Reader<'_>) -> Option<Filter> {
+    Some(Filter { time: reader.real()?, given: reader.triple()?, position: reader.triple()?, velocity: reader.triple()? })
+}
+
+fn write_vessel(vessel: &Vessel, writer: &mut Writer) {
+    let Vessel { origin, said, paths, filters, angles, told, reached } = vessel;
+    origin.iter().chain(&said.values).chain(&said.applied).for_each(|values| writer.triple(*values));
+    said.derivatives.iter().flatten().flatten().for_each(|value| writer.option(*value));
+    paths.iter().for_each(|path| write_path(path, writer));
+    filters.iter().for_each(|filter| write_filter(filter, writer));
+    writer.triple(*angles);
+    writer.count(told.0 as usize);
+    let Reached { position, angles, velocity, omega, force, moment, work } = reached;
+    [position, angles, velocity, omega, force, moment].into_iter().for_each(|vector| writer.triple((*vector).into()));
+    writer.real(*work);
+}
+
+fn read_vessel(reader: &mut Reader<'_>) -> Option<Vessel> {
+    let mut triple = || reader.triple();
+    let origin = [triple()?, triple()?];
+    let values = [triple()?, triple()?, triple()?, triple()?];
+    let mut said = Said { values, applied: [triple()?, triple()?], ..Said::default() };
+    for slot in said.derivatives.iter_mut().flatten().flatten() {
+        *slot = reader.option()?;
+    }
+    let paths = [read_path(reader)?, read_path(reader)?];
+    let filters = [read_filter(reader)?, read_filter(reader)?];
+    let (angles, told) = (reader.triple()?, Told(reader.number()?));
+    let mut vector = || reader.triple().map(Vector3::from);
+    let (position, of, velocity, omega) = (vector()?, vector()?, vector()?, vector()?);
+    let (force, moment) = (vector()?, vector()?);
+    let reached = Reached { position, angles: of, velocity, omega, force, moment, work: reader.real()? };
+    Some(Vessel { origin, said, paths, filters, angles, told, reached })
 }
 
 fn write_axis(axis: &Axis, writer: &mut Writer) {

@@ -3,6 +3,7 @@
 //! Names, value references and limits come from `modelDescription/modelDescription.xml` through `build.rs`; the meaning stands here, in
 //! matches over every variable: parameter → field of the scene, input → component of the fairlead's motion, output → field of `Outputs`.
 
+use crate::fmi::body_variables::{self, BodyInput, BodyOutput, Choice, Conventions, Role, Row, Said};
 use crate::scene::types::{LineType, Scene, Scheme, Section};
 use crate::solve::simulation::{LastStep, Outputs};
 use serde_json::Value;
@@ -60,6 +61,12 @@ pub enum Meaning {
     Local(Local),
     /// Set before or in initialization mode.
     Parameter(Parameter),
+    /// Set by the master, of a body.
+    BodyInput(BodyInput),
+    /// Computed, of a body or point.
+    BodyOutput(BodyOutput),
+    /// A choice of axes of a body, set like a parameter.
+    Choice(Choice),
     /// Number `.0` of the scene's own quantities (`Interface::places`), set like a parameter.
     Place(usize),
 }
@@ -69,9 +76,9 @@ pub enum Meaning {
 pub struct Variable {
     /// Name; of several lines, with the line's in front.
     pub name: String,
-    /// Name in modelDescription.xml; empty for the scene's own quantities.
+    /// Name in modelDescription.xml; empty for the scene's own quantities, and for those of bodies and points.
     pub stem: &'static str,
-    /// Number of the line it belongs to; 0 for what all lines share.
+    /// Number of the line, body or point it belongs to; 0 for what all lines share.
     pub line: usize,
     /// Value reference.
     pub reference: u32,
@@ -95,8 +102,23 @@ impl Variable {
         match self.meaning {
             Meaning::Place(_) => true,
             Meaning::Parameter(parameter) => parameter.belongs_to_single_section(),
-            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) => false,
+            _ => false,
         }
+    }
+
+    /// Whether it is set like a parameter.
+    pub fn is_parameter(&self) -> bool {
+        matches!(self.meaning, Meaning::Parameter(_) | Meaning::Place(_) | Meaning::Choice(_))
+    }
+
+    /// Whether it is an input, and whether it is an output.
+    pub fn is_input(&self) -> bool {
+        matches!(self.meaning, Meaning::Input(_) | Meaning::BodyInput(_))
+    }
+
+    /// Whether it is an output.
+    pub fn is_output(&self) -> bool {
+        matches!(self.meaning, Meaning::Output(_) | Meaning::BodyOutput(_))
     }
 }
 
@@ -254,7 +276,7 @@ impl Meaning {
         match self {
             Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) => true,
             Meaning::Parameter(parameter) => parameter.belongs_to_line(),
-            Meaning::Place(_) => false,
+            Meaning::Place(_) | Meaning::BodyInput(_) | Meaning::BodyOutput(_) | Meaning::Choice(_) => false,
         }
     }
 }
@@ -392,12 +414,81 @@ impl Interface {
                 interface.add_places();
             }
         }
+        interface.add_bodies(scene);
         interface
+    }
+
+    /// The variables of bodies and free points, by rising value reference.
+    fn add_bodies(&mut self, scene: &Scene) {
+        let mut blocks: Vec<(u32, usize, String, Vec<Row>)> = Vec::new();
+        for (index, body) in scene.bodies.iter().enumerate() {
+            let rows = body_variables::of_body(body.is_free());
+            blocks.push((body_variables::block_of_body(scene, index), index, identifier(&body.name), rows));
+        }
+        for (index, point) in scene.points.iter().enumerate().filter(|(_, point)| point.is_free()) {
+            blocks.push((body_variables::block_of_point(scene, index), index, identifier(&point.name), body_variables::of_point()));
+        }
+        blocks.sort_by_key(|(first, ..)| *first);
+        for (first, index, name, rows) in blocks {
+            for row in rows {
+                let (meaning, start) = match row.role {
+                    Role::Input(input) => (Meaning::BodyInput(input), said_first(scene, index, input)),
+                    Role::Output(output) => (Meaning::BodyOutput(output), 0.0),
+                    Role::Choice(choice) => (Meaning::Choice(choice), 1.0),
+                };
+                let kind = if row.is_choice() { Kind::Integer } else { Kind::Real };
+                let slot = if row.is_choice() { self.parameters } else { 0 };
+                self.parameters += usize::from(row.is_choice());
+                self.variables.push(Variable {
+                    name: format!("{name}.{}", row.stem),
+                    stem: "",
+                    line: index,
+                    reference: first + row.offset,
+                    meaning,
+                    kind,
+                    min: row.limits[0],
+                    max: row.limits[1],
+                    start,
+                    slot,
+                });
+            }
+        }
+    }
+
+    /// In which axes the master speaks of each body.
+    pub fn conventions(&self, values: &[f64]) -> Vec<Conventions> {
+        let mut conventions = vec![Conventions::default(); self.settings.scene.bodies.len()];
+        for variable in &self.variables {
+            let Meaning::Choice(choice) = variable.meaning else { continue };
+            let second = values.get(variable.slot).is_some_and(|value| *value == 2.0);
+            let of = &mut conventions[variable.line];
+            match choice {
+                Choice::Axes => of.ned = second,
+                Choice::Rates => of.body_rates = second,
+                Choice::Loads => of.body_loads = second,
+            }
+        }
+        conventions
+    }
+
+    /// What a master says of each body before it says anything.
+    pub fn said_first(&self) -> Vec<Said> {
+        let mut said = vec![Said::default(); self.settings.scene.bodies.len()];
+        for variable in &self.variables {
+            if let Meaning::BodyInput(BodyInput::Motion(part, axis)) = variable.meaning {
+                said[variable.line].values[body_variables::number_of(part)][axis] = variable.start;
+            }
+        }
+        said
     }
 
     fn add_definition(&mut self, definition: &Definition, line: usize, scene_names: bool) {
         let mut start = definition.start;
         let mut slot = 0;
+        let hung = self.settings.scene.lines.get(line).is_some_and(|line| line.fairlead_on.is_some());
+        if hung && matches!(definition.meaning, Meaning::Input(_)) {
+            return;
+        }
         match definition.meaning {
             Meaning::Parameter(parameter) => {
                 if scene_names && parameter.belongs_to_single_section() {
@@ -418,7 +509,7 @@ impl Interface {
                     start = line.fairlead[axis];
                 }
             }
-            Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => {}
+            _ => {}
         }
         let Definition { name: stem, reference, meaning, kind, min, max, .. } = *definition;
         let prefix = if meaning.belongs_to_line() { self.prefix(line) } else { String::new() };
@@ -434,6 +525,11 @@ impl Interface {
         }
     }
 
+    /// What stands in front of the names of a body's variables.
+    pub fn body_prefix(&self, body: usize) -> String {
+        self.settings.scene.bodies.get(body).map_or_else(String::new, |body| identifier(&body.name) + ".")
+    }
+
     /// Number of lines.
     pub fn lines(&self) -> usize {
         self.settings.scene.lines.len()
@@ -442,7 +538,7 @@ impl Interface {
     /// Every number of the scene but those that have a variable already (fairlead, solver) and those that only a run uses.
     fn add_places(&mut self) {
         let Ok(scene) = serde_json::to_value(&self.settings.scene) else { return };
-        for part in ["environment", "line_types", "lines"] {
+        for part in ["environment", "line_types", "lines", "bodies", "points"] {
             if let Some(value) = scene.get(part) {
                 self.add_numbers(value, part.to_owned(), format!("/{part}"));
             }
@@ -468,7 +564,7 @@ impl Interface {
                 }
             }
             Value::Object(entries) => {
-                for (key, item) in entries.iter().filter(|(key, _)| *key != "fairlead") {
+                for (key, item) in entries.iter().filter(|(key, _)| !INPUTS.contains(&key.as_str())) {
                     let token = key.replace('~', "~0").replace('/', "~1");
                     self.add_numbers(item, format!("{name}.{}", identifier(key)), format!("{pointer}/{token}"));
                 }
@@ -502,7 +598,7 @@ impl Interface {
     pub fn start_values(&self) -> Vec<f64> {
         let mut values = vec![0.0; self.parameters];
         for variable in &self.variables {
-            if let Meaning::Parameter(_) | Meaning::Place(_) = variable.meaning {
+            if variable.is_parameter() {
                 values[variable.slot] = variable.start;
             }
         }
@@ -528,7 +624,7 @@ impl Interface {
                         *number = if variable.kind == Kind::Integer { Value::from(value as u64) } else { Value::from(value) };
                     }
                 }
-                Meaning::Place(_) | Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) => {}
+                _ => {}
             }
         }
         if !tree.is_null() {
@@ -536,6 +632,7 @@ impl Interface {
             settings.scene = serde_json::from_value(tree).map_err(|error| error.to_string())?;
             settings.scene.solver = solver;
         }
+        settings.scene.place_ends();
         Ok(settings)
     }
 
@@ -559,7 +656,7 @@ impl Interface {
     fn parameters_with_places(&self) -> impl Iterator<Item = (&Variable, String)> {
         self.variables.iter().filter_map(|variable| match variable.meaning {
             Meaning::Parameter(parameter) => Some((variable, parameter.place(&self.settings.scene, variable.line))),
-            Meaning::Input(_) | Meaning::Output(_) | Meaning::Local(_) | Meaning::Place(_) => None,
+            _ => None,
         })
     }
 }
@@ -580,7 +677,7 @@ impl Parameter {
     }
 }
 
-/// Whether a scene's quantities go under its own names: several sections, attachments, waves or current, or lines that leave the stiffness
+/// Whether a scene's quantities go under its own names: several sections, free bodies, points, attachments, waves or current, or lines that leave the stiffness
 /// of the bed to defaults that differ.
 fn uses_scene_names(scene: &Scene) -> bool {
     let plain =
@@ -588,7 +685,21 @@ fn uses_scene_names(scene: &Scene) -> bool {
     let mut types = scene.lines.iter().filter_map(|line| scene.line_types.get(&line.sections.first()?.line_type));
     let first = types.next().map(|line_type| bed_stiffness(scene, line_type));
     let one_bed = scene.environment.seabed.stiffness.is_some() || types.all(|other| Some(bed_stiffness(scene, other)) == first);
-    !plain || !one_bed || scene.environment.waves.is_some() || !scene.environment.current.is_empty()
+    let meets = !scene.points.is_empty() || scene.lines.iter().any(|line| line.anchor_on.is_some());
+    let free = scene.bodies.iter().any(crate::scene::bodies::Body::is_free);
+    !plain || meets || free || !one_bed || scene.environment.waves.is_some() || !scene.environment.current.is_empty()
+}
+
+/// Keys of the scene whose numbers are inputs.
+const INPUTS: [&str; 3] = ["fairlead", "position", "attitude_deg"];
+
+/// Start value of an input of a body: its pose in the scene.
+fn said_first(scene: &Scene, body: usize, input: BodyInput) -> f64 {
+    match input {
+        BodyInput::Motion(body_variables::Part::Position, axis) => scene.bodies[body].position[axis],
+        BodyInput::Motion(body_variables::Part::Attitude, axis) => scene.bodies[body].attitude_deg[axis].to_radians(),
+        BodyInput::Motion(..) | BodyInput::Applied(..) => 0.0,
+    }
 }
 
 /// The stiffness of the bed under a line, where the scene gives none [Pa].

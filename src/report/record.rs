@@ -2,8 +2,11 @@
 
 use crate::error::Error;
 use crate::report::units::{ForceUnit, sim_time};
+use crate::scene::bodies::{Body, Point};
 use crate::scene::types::{LineType, Scene};
+use crate::solve::loads::BodyOutputs;
 use crate::solve::simulation::{Counters, NodeOutput, Outputs, StaticsReport};
+use nalgebra::Vector3;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -16,6 +19,10 @@ pub struct Record {
     pub file: String,
     /// The lines, in the order of the scene.
     pub lines: Vec<LineRecord>,
+    /// The bodies, in the order of the scene.
+    pub bodies: Vec<BodyRecord>,
+    /// The free points, in the order of the scene.
+    pub points: Vec<PointRecord>,
     /// Times of the rows [s].
     pub times: Vec<f64>,
     /// Times of the snapshots [s].
@@ -33,6 +40,26 @@ pub struct Record {
     pub scene_warnings: Vec<String>,
     /// Why the run ended early; `None` after a whole run.
     pub ended_by: Option<Error>,
+}
+
+/// One body of a run.
+#[derive(Debug, Clone)]
+pub struct BodyRecord {
+    /// Its name.
+    pub name: String,
+    /// Whether a motion drives it.
+    pub driven: bool,
+    /// Pose and loads at the times of the rows.
+    pub rows: Vec<BodyOutputs>,
+}
+
+/// One free point of a run.
+#[derive(Debug, Clone)]
+pub struct PointRecord {
+    /// Its name.
+    pub name: String,
+    /// Positions at the times of the rows [m].
+    pub rows: Vec<Vector3<f64>>,
 }
 
 /// One line of a run.
@@ -133,6 +160,8 @@ impl Record {
             scene: scene.clone(),
             file: file.to_string(),
             lines: (0..scene.lines.len()).map(|index| LineRecord::new(scene, index)).collect(),
+            bodies: scene.bodies.iter().map(BodyRecord::new).collect(),
+            points: scene.points.iter().filter(|point| point.is_free()).map(PointRecord::new).collect(),
             times: Vec::new(),
             snapshot_times: Vec::new(),
             snapshot_step,
@@ -151,6 +180,12 @@ impl Record {
             line.rows.push(*outputs);
             line.watch_breaking_loads(time, outputs.tension_max, nodes);
         }
+    }
+
+    /// Adds the bodies and free points of a row.
+    pub fn add_bodies(&mut self, bodies: &[BodyOutputs], points: &[Vector3<f64>]) {
+        self.bodies.iter_mut().zip(bodies).for_each(|(body, row)| body.rows.push(*row));
+        self.points.iter_mut().zip(points).for_each(|(point, row)| point.rows.push(*row));
     }
 
     /// Notes the work done for each line so far.
@@ -208,6 +243,18 @@ impl Record {
         let unresolved = self.lines.iter().filter_map(LineRecord::unresolved);
         let pushing = self.lines.iter().filter_map(LineRecord::pushing);
         self.scene_warnings.iter().cloned().chain(overloads).chain(unresolved).chain(pushing).collect()
+    }
+}
+
+impl BodyRecord {
+    fn new(body: &Body) -> BodyRecord {
+        BodyRecord { name: body.name.clone(), driven: !body.is_free(), rows: Vec::new() }
+    }
+}
+
+impl PointRecord {
+    fn new(point: &Point) -> PointRecord {
+        PointRecord { name: point.name.clone(), rows: Vec::new() }
     }
 }
 

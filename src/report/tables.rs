@@ -3,7 +3,9 @@
 use crate::error::Error;
 use crate::report::record::{LineRecord, Record, Statistics};
 use crate::scene::types::Scheme;
+use crate::solve::loads::BodyOutputs;
 use crate::solve::simulation::{NodeOutput, Outputs};
+use nalgebra::Vector3;
 use serde::Serialize;
 use std::fs::File;
 use std::io::Write;
@@ -12,6 +14,10 @@ use std::path::{Path, PathBuf};
 /// Columns of a line in `timeseries.csv`, after `time`.
 const COLUMNS: [&str; 9] =
     ["fairlead_x", "fairlead_y", "fairlead_z", "tension", "force_x", "force_y", "force_z", "anchor_tension", "grounded_length"];
+
+/// Columns of a body: position of its reference point [m], roll, pitch and yaw [rad], force [N] and moment [N·m] of the lines on it.
+const BODY_COLUMNS: [&str; 12] =
+    ["x", "y", "z", "roll", "pitch", "yaw", "force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"];
 
 /// Creates a file, or overwrites it; says which one where that fails.
 pub fn create(path: &Path) -> Result<File, Error> {
@@ -61,11 +67,14 @@ pub struct TimeSeries<W: Write> {
 }
 
 impl<W: Write> TimeSeries<W> {
-    /// Writes the header. The columns of several lines are prefixed `NAME.`; `path` is for messages.
-    pub fn new(to: W, path: &Path, lines: &[&str]) -> Result<TimeSeries<W>, Error> {
+    /// Writes the header. The columns of several lines are prefixed `NAME.`, and so are those of bodies and free points; `path` is for messages.
+    pub fn new(to: W, path: &Path, lines: &[&str], bodies: &[&str], points: &[&str]) -> Result<TimeSeries<W>, Error> {
         let mut table = Table { to, path: path.to_path_buf() };
         let prefix = |line: &str| if lines.len() == 1 { String::new() } else { format!("{line}.") };
         let columns = lines.iter().flat_map(|line| COLUMNS.map(|column| prefix(line) + column));
+        let of_bodies = bodies.iter().flat_map(|body| BODY_COLUMNS.map(|column| format!("{body}.{column}")));
+        let of_points = points.iter().flat_map(|point| ["x", "y", "z"].map(|column| format!("{point}.{column}")));
+        let columns = columns.chain(of_bodies).chain(of_points);
         table.put(&text(std::iter::once(std::iter::once("time".to_string()).chain(columns))))?;
         Ok(TimeSeries { table })
     }
@@ -93,6 +102,17 @@ pub fn cells(line: &Outputs) -> String {
         line.grounded_length,
     ];
     numbers.map(number).join(",")
+}
+
+/// The cells of a body in a row of `timeseries.csv`.
+pub fn body_cells(body: &BodyOutputs) -> String {
+    let numbers = [body.pose.position, body.pose.angles, body.force, body.moment];
+    numbers.iter().flatten().map(|x| number(*x)).collect::<Vec<_>>().join(",")
+}
+
+/// The cells of a free point.
+pub fn point_cells(place: &Vector3<f64>) -> String {
+    place.iter().map(|x| number(*x)).collect::<Vec<_>>().join(",")
 }
 
 /// `nodes.csv`: the nodes of all lines at the snapshots, nodes counted from 0 at the fairlead.
@@ -246,7 +266,6 @@ fn work(elements: usize, counters: crate::solve::simulation::Counters) -> Work {
 mod tests {
     use super::*;
     use crate::report::sample;
-    use nalgebra::Vector3;
 
     fn outputs(tension: f64) -> Outputs {
         Outputs {
@@ -260,7 +279,7 @@ mod tests {
     fn written(lines: &[&str], rows: &[&[Outputs]]) -> String {
         let mut bytes = Vec::new();
         {
-            let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), lines).expect("header");
+            let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), lines, &[], &[]).expect("header");
             rows.iter().for_each(|row| table.row(0.3, &row.iter().map(cells).collect::<Vec<_>>()).expect("row"));
         }
         String::from_utf8(bytes).expect("text")
@@ -291,7 +310,7 @@ mod tests {
     #[test]
     fn every_row_is_on_its_way_before_the_next_is_begun() {
         let mut bytes = Vec::new();
-        let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), &["line"]).expect("header");
+        let mut table = TimeSeries::new(&mut bytes, Path::new("timeseries.csv"), &["line"], &[], &[]).expect("header");
         table.row(0.3, &[cells(&outputs(1.0))]).expect("row");
         // Forgotten, the table cannot write on its way out: what is there was there before.
         std::mem::forget(table);

@@ -25,6 +25,15 @@ impl Scene {
         }
     }
 
+    /// The same scene with a body fixed in a pose, position [m] and roll, pitch and yaw [deg].
+    pub fn with_body_held(&self, body: usize, position: Triple, attitude_deg: Triple) -> Scene {
+        let mut scene = self.clone();
+        let own = &mut scene.bodies[body];
+        (own.position, own.attitude_deg, own.motion) = (position, attitude_deg, BodyMotion::Fixed);
+        scene.place_ends();
+        scene
+    }
+
     /// Puts the ends that hang on bodies and points where these are. What hangs on nothing that is known stays where it was.
     pub fn place_ends(&mut self) {
         let (bodies, points) = (&self.bodies, &self.points);

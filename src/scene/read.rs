@@ -46,6 +46,23 @@ pub struct Loaded {
     pub warnings: Vec<String>,
 }
 
+impl Loaded {
+    /// A scene that no file was read for.
+    pub fn of_scene(scene: Scene) -> Loaded {
+        Loaded {
+            scene,
+            file: String::new(),
+            directory: PathBuf::new(),
+            motion: None,
+            body_motions: Vec::new(),
+            point_motions: Vec::new(),
+            deck: None,
+            state: None,
+            warnings: Vec::new(),
+        }
+    }
+}
+
 /// Reads and checks a scene file, changed by `--set` entries (`place=value`).
 pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Error> {
     let file = path.display().to_string();

@@ -18,6 +18,7 @@ use crate::solve::controller::{self, Controller, Demands, Failure};
 use crate::solve::motion::{Ends, Path};
 use crate::solve::network::Network;
 use crate::solve::newton::{Criteria, Newton};
+use crate::solve::outputs;
 use crate::solve::partition::Together;
 use crate::solve::pose::{BodyMotion, Kinematics};
 use crate::solve::scheme::{Bench, Moment, Stages};
@@ -36,6 +37,17 @@ pub enum EndOf {
     Anchor,
 }
 
+/// Changes of what a group tells about itself.
+#[derive(Debug, Clone)]
+pub struct Differences {
+    /// Of the outputs of its lines.
+    pub lines: Vec<Outputs>,
+    /// Of position, angles, velocity and angular velocity of its bodies.
+    pub bodies: Vec<Vec<Vector3<f64>>>,
+    /// Of position and velocity of its points.
+    pub points: Vec<[Vector3<f64>; 2]>,
+}
+
 /// Lines, free bodies and free points that move together.
 pub struct Group {
     together: Together,
@@ -50,6 +62,9 @@ pub struct Group {
     moment: Moment,
     fresh: bool,
     last: LastStep,
+    /// Work done on what moves each driven end [J], and whether it is summed up.
+    works: Vec<f64>,
+    sums_work: bool,
     names: Vec<String>,
     /// Nodes of bodies, then of points.
     masters: Vec<usize>,
@@ -162,7 +177,7 @@ impl Group {
             .map(|body| format!("body \"{}\"", scene.bodies[*body].name))
             .chain(together.points.iter().map(|point| format!("point \"{}\"", scene.points[*point].name)))
             .collect();
-        let nodes = network.nodes();
+        let (nodes, works) = (network.nodes(), vec![0.0; network.driven.len()]);
         let newton = Newton::new(&network);
         let mut moment = controller::at_rest(&network, 0.0, scene.solver.max_step);
         moment.state.frames = vec![Matrix3::identity(); together.bodies.len()];
@@ -183,6 +198,8 @@ impl Group {
             network,
             fresh: true,
             last: LastStep::default(),
+            works,
+            sums_work: false,
             names,
             masters,
             others: false,
@@ -242,7 +259,7 @@ impl Group {
 
     /// Sets the path of a driven end of one of its lines.
     pub fn drive(&mut self, local: usize, end: EndOf, path: &Path) {
-        let node = self.starts[local] + if end == EndOf::Anchor { 0 } else { self.simulations[local].line().last() };
+        let node = self.node_of(local, end);
         if let Some((_, own)) = self.network.driven.iter_mut().find(|(driven, _)| *driven == node) {
             own.clone_from(path);
         }
@@ -301,7 +318,84 @@ impl Group {
             allowed: demands.error,
             stages: Stages::Solve,
         };
-        self.controller.advance(&mut bench, &demands, &mut self.moment, until, |_, _| {})
+        let network = &self.network;
+        if !self.sums_work {
+            return self.controller.advance(&mut bench, &demands, &mut self.moment, until, |_, _| {});
+        }
+        let (mut room, works) = (Field::new(network.nodes()), &mut self.works);
+        let mut ends = |moment: &Moment| -> Vec<(Vector3<f64>, Vector3<f64>)> {
+            network.rod.residual(&crate::solve::newton::motion(&moment.state), &mut room);
+            network.driven.iter().map(|(node, _)| (-room.position(*node), moment.state.u.position(*node))).collect()
+        };
+        let mut before = ends(&self.moment);
+        self.controller.advance(&mut bench, &demands, &mut self.moment, until, |moment, _| {
+            let now = ends(moment);
+            for ((work, before), now) in works.iter_mut().zip(&before).zip(&now) {
+                *work += 0.5 * (before.0 + now.0).dot(&(now.1 - before.1));
+            }
+            before = now;
+        })
+    }
+
+    /// From now on the work done on what drives its ends is summed up.
+    pub fn sum_up_work(&mut self) {
+        self.sums_work = true;
+    }
+
+    /// Work done on what drives an end of one of its lines [J]; zero for one that hangs on what is free.
+    pub fn work(&self, local: usize, end: EndOf) -> f64 {
+        let node = self.node_of(local, end);
+        let number = self.network.driven.iter().position(|(driven, _)| *driven == node);
+        number.map_or(0.0, |number| self.works[number])
+    }
+
+    fn node_of(&self, local: usize, end: EndOf) -> usize {
+        self.starts[local] + if end == EndOf::Anchor { 0 } else { self.simulations[local].line().last() }
+    }
+
+    /// Rates of the outputs of one of its lines in time.
+    pub fn output_rates(&mut self, local: usize) -> Outputs {
+        self.shown(local).output_rates()
+    }
+
+    /// Change of the outputs of its lines, and of its bodies and points, at a time per share of changed paths, by a central difference of steps
+    /// repeated; `drive` puts the driven ends and the applied forces of the share in place. Stays as it is.
+    pub fn derivative(&mut self, until: f64, share: f64, mut drive: impl FnMut(&mut Group, f64)) -> Result<Differences, Error> {
+        let mut now = Snapshot::new(self.network.nodes());
+        self.save(&mut now);
+        let (tally, effort, before) = (self.controller.tally, self.newton.effort, self.before.take());
+        let mut at = |group: &mut Group, share: f64| {
+            drive(group, share);
+            let outcome = group.advance(until).map(|()| group.all());
+            group.restore(&now);
+            outcome
+        };
+        let ends = at(self, share).and_then(|after| Ok((after, at(self, -share)?)));
+        drive(self, 0.0);
+        (self.controller.tally, self.newton.effort, self.before) = (tally, effort, before);
+        let (after, before) = ends?;
+        let per = 0.5 / share;
+        Ok(Differences {
+            lines: after.0.iter().zip(&before.0).map(|(a, b)| outputs::difference(a, b, per)).collect(),
+            bodies: after.1.iter().zip(&before.1).map(|(a, b)| a.iter().zip(b).map(|(x, y)| (x - y) * per).collect()).collect(),
+            points: after.2.iter().zip(&before.2).map(|(a, b)| [0, 1].map(|order: usize| (a[order] - b[order]) * per)).collect(),
+        })
+    }
+
+    /// Outputs of lines; position, angles, velocity and angular velocity of bodies; position and velocity of points.
+    fn all(&mut self) -> (Vec<Outputs>, Vec<Vec<Vector3<f64>>>, Vec<[Vector3<f64>; 2]>) {
+        let lines = (0..self.simulations.len()).map(|local| self.outputs(local)).collect();
+        let body = |number: usize| {
+            let motion = self.body(number);
+            let angles = crate::algebra::rotation::angles(&motion.rotation);
+            vec![motion.reference.position, angles, motion.reference.velocity, motion.omega]
+        };
+        let bodies = (0..self.together.bodies.len()).map(body).collect();
+        let points = (0..self.together.points.len()).map(|number| {
+            let point = self.point(number);
+            [point.position, point.velocity]
+        });
+        (lines, bodies, points.collect())
     }
 
     fn bench(&mut self) -> (Bench<'_>, &mut Moment) {
@@ -459,7 +553,7 @@ impl Group {
 
     /// The complete state.
     pub fn save(&self, snapshot: &mut Snapshot) {
-        snapshot.keep(&self.moment, self.newton.memory(), self.demands.error, self.fresh, self.last);
+        snapshot.keep(&self.moment, self.newton.memory(), &self.works, self.demands.error, self.fresh, self.last);
     }
 
     /// Puts back a state of this group; false, and nothing changed, if it is not one.
@@ -467,7 +561,7 @@ impl Group {
         if !self.fits(snapshot) {
             return false;
         }
-        let (error, fresh, last) = snapshot.bring_back(&mut self.moment, &mut self.newton);
+        let (error, fresh, last) = snapshot.bring_back(&mut self.moment, &mut self.newton, &mut self.works);
         (self.demands.error, self.fresh, self.last) = (error, fresh, last);
         true
     }
@@ -476,6 +570,7 @@ impl Group {
     pub fn fits(&self, snapshot: &Snapshot) -> bool {
         snapshot.nodes() == self.network.nodes()
             && snapshot.bodies() == self.together.bodies.len()
+            && snapshot.driven() == self.works.len()
             && snapshot.holding_nodes() == self.network.holding_nodes()
     }
 

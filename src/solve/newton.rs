@@ -12,7 +12,7 @@ use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::memory::{Memory, Shelf};
 use crate::solve::search;
 use crate::solve::unknowns::Unknowns;
-use nalgebra::{Matrix3, SVector, Vector3};
+use nalgebra::{Matrix3, Matrix6, SVector, Vector3};
 use std::ops::AddAssign;
 use std::sync::Arc;
 
@@ -189,6 +189,38 @@ impl Newton {
         let stiffness = self.condense(line, state);
         self.recall(&memory);
         stiffness
+    }
+
+    /// Static stiffness against both ends, those of the anchor before those of the fairlead [N/m], as `fairlead_stiffness`.
+    pub fn end_stiffness(&mut self, line: &dyn System, state: &State) -> Option<Matrix6<f64>> {
+        let memory = self.memory.clone();
+        let weights = Weights { u: 1.0, v: 0.0, a: 0.0 };
+        line.tangent(&motion(state), &weights, None, &mut self.matrix);
+        let full = self.matrix.clone();
+        let factored = self.factor(line, &motion(state), &weights, None).is_ok();
+        let (last, nodes) = (line.last(), line.nodes());
+        let mut stiffness = Matrix6::zeros();
+        for column in 0..6 {
+            let mut x = vec![SVector::<f64, COMPONENTS>::zeros(); nodes];
+            let mut force = x.clone();
+            x[if column < 3 { 0 } else { last }][column % 3] = 1.0;
+            full.multiply(&x, &mut force);
+            let mut field = Field::new(nodes);
+            for (node, f) in force.iter().enumerate() {
+                field.set_position(node, &-f.fixed_rows::<3>(0));
+                field.set_slope(node, &-f.fixed_rows::<3>(3));
+            }
+            self.solve_linear(line, &mut field);
+            for (node, x) in x.iter_mut().enumerate() {
+                x.fixed_rows_mut::<3>(0).add_assign(field.position(node));
+                x.fixed_rows_mut::<3>(3).add_assign(field.slope(node));
+            }
+            full.multiply(&x, &mut force);
+            stiffness.fixed_view_mut::<3, 1>(0, column).copy_from(&force[0].fixed_rows::<3>(0));
+            stiffness.fixed_view_mut::<3, 1>(3, column).copy_from(&force[last].fixed_rows::<3>(0));
+        }
+        self.recall(&memory);
+        (factored && stiffness.iter().all(|k| k.is_finite())).then_some(stiffness)
     }
 
     fn condense(&mut self, line: &dyn System, state: &State) -> Option<Matrix3<f64>> {

@@ -95,6 +95,15 @@ pub enum PosePath {
         /// The same of the angles [rad].
         angles: Vec<Vector3<f64>>,
     },
+    /// Another path and a share of a change of it.
+    Moved {
+        /// The path.
+        of: Arc<PosePath>,
+        /// The change.
+        by: Arc<PosePath>,
+        /// Its share.
+        share: f64,
+    },
     /// A small change of another path, per unit of what changes: its motion is that of the places, to first order.
     Variation {
         /// The path that is changed.
@@ -120,6 +129,10 @@ impl PosePath {
             PosePath::Table(table) => of_table(table, time),
             PosePath::Polynomial { start, position, angles } => [position, angles].map(|terms| polynomial(terms, time - start)),
             PosePath::Variation { by, .. } => by.coordinates(time),
+            PosePath::Moved { of, by, share } => {
+                let (base, change) = (of.coordinates(time), by.coordinates(time));
+                [0, 1].map(|part: usize| [0, 1, 2].map(|order: usize| base[part][order] + change[part][order] * *share))
+            }
         }
     }
 
@@ -168,7 +181,7 @@ impl PosePath {
                 };
                 way(position) + arm * way(angles) <= slight
             }
-            PosePath::Variation { .. } => false,
+            PosePath::Variation { .. } | PosePath::Moved { .. } => false,
         }
     }
 
@@ -188,7 +201,7 @@ impl PosePath {
                     && position.iter().skip(1).all(|c| c.y == 0.0)
                     && angles.iter().all(upright)
             }
-            PosePath::Variation { .. } => false,
+            PosePath::Variation { .. } | PosePath::Moved { .. } => false,
         }
     }
 }

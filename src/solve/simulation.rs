@@ -674,6 +674,11 @@ impl Simulation {
         &self.supports
     }
 
+    /// What its stiffness is made of.
+    pub(in crate::solve) fn for_stiffness(&mut self) -> (&dyn Line, &mut Newton, &State) {
+        (self.line.as_ref(), &mut self.newton, &self.moment.state)
+    }
+
     /// What its steps have to meet.
     pub(in crate::solve) fn demands(&self) -> &Demands {
         &self.demands

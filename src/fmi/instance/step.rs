@@ -1,15 +1,17 @@
 //! The clock of an instance and its step: from inputs to a path, over the step, and what changes with the inputs.
 
-use super::{Instance, Route, is_finite};
+use super::bodies::Directions;
+use super::built::Route;
+use super::{Instance, Message, WARNING, is_finite};
 use crate::error::Error;
+use crate::fmi::body_variables::{BodyOutput, Said};
 use crate::fmi::inputs::Inputs;
 use crate::fmi::phase::{Call, Phase, StepStatus};
 use crate::fmi::refusal::Refusal;
 use crate::fmi::snapshot::{End, Moment};
-use crate::fmi::variables::{Kind, Meaning, Output};
+use crate::fmi::variables::{Kind, Meaning};
+use crate::fmi::vessel::Impossible;
 use crate::fmi::warnings;
-use crate::solve::simulation::Outputs;
-use nalgebra::Vector3;
 
 /// Longest communication step [s]; more is a mistake of units or an uninitialised number.
 const LONGEST_STEP: f64 = 1.0e6;
@@ -36,6 +38,7 @@ impl Instance {
                 self.arrive(until)?;
                 self.moment.last_step_size = step;
                 self.moment.ends.iter_mut().for_each(|end| end.inputs.derivatives = Inputs::default().derivatives);
+                self.moment.vessels.iter_mut().for_each(|vessel| vessel.said.derivatives = Said::default().derivatives);
                 self.moment.step_status = StepStatus::Done;
                 Ok(())
             }
@@ -45,14 +48,7 @@ impl Instance {
 
     /// Advances all lines or, where one fails, none.
     fn advance(&mut self, until: f64) -> Result<(), Error> {
-        let lines = self.built.as_mut().map_or(&mut [][..], |built| &mut built.lines);
-        for index in 0..lines.len() {
-            if let Err(error) = lines[index].advance(until) {
-                lines[..index].iter_mut().for_each(|line| line.simulation.undo());
-                return Err(error);
-            }
-        }
-        Ok(())
+        self.built.as_mut().map_or(Ok(()), |built| built.advance(until))
     }
 
     /// Checks the master's step against our clock; the end it means.
@@ -81,9 +77,26 @@ impl Instance {
 
     /// Decides how the fairleads go to a time.
     fn plan(&mut self, until: f64) -> Result<(), Refusal> {
-        let Moment { clock, ends, .. } = &self.moment;
+        let Moment { clock, ends, vessels, .. } = &self.moment;
         let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
-        for (line, End { inputs, path, filter, .. }) in built.lines.iter_mut().zip(ends) {
+        let mut voyages = Vec::with_capacity(vessels.len());
+        for (index, (vessel, of)) in vessels.iter().zip(&built.vessels).enumerate() {
+            if of.free {
+                voyages.push(None);
+                continue;
+            }
+            let voyage = vessel.plan(built.interpolation, built.filter, &built.conventions[index], of.arm, *clock, until - clock);
+            let name = || self.interface.scene().bodies[index].name.clone();
+            voyages.push(Some(voyage.map_err(|impossible| match impossible {
+                Impossible::Jump(distance) => Refusal::PoseJump { body: name(), time: *clock, distance },
+                Impossible::Turn(turn) => Refusal::PoseTurn { body: name(), time: *clock, degrees: turn.to_degrees() },
+            })?));
+        }
+        built.vessels.iter_mut().zip(voyages).for_each(|(of, voyage)| of.voyage = voyage);
+        let said: Vec<Said> = vessels.iter().map(|vessel| vessel.said).collect();
+        built.apply(&said);
+        let driven = |index: usize| self.interface.scene().lines.get(index).is_some_and(|line| line.fairlead_on.is_none());
+        for (_, (line, End { inputs, path, filter, .. })) in built.lines.iter_mut().zip(ends).enumerate().filter(|(index, _)| driven(*index)) {
             let (mut inputs, mut filter) = (*inputs, *filter);
             if built.filter > 0.0 {
                 filter = filter.after(built.filter, *clock, &inputs);
@@ -93,6 +106,7 @@ impl Instance {
             let segment = path.segment(&plan, &inputs);
             line.route = Some(Route { plan, segment, inputs, filter });
         }
+        built.set_out();
         Ok(())
     }
 
@@ -100,14 +114,16 @@ impl Instance {
     fn arrive(&mut self, time: f64) -> Result<(), Refusal> {
         let (begin, mut told) = (self.moment.clock, Vec::new());
         let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
-        for (index, (line, end)) in built.lines.iter_mut().zip(&mut self.moment.ends).enumerate() {
-            end.outputs = line.simulation.observe();
+        for index in 0..built.lines.len() {
+            let (outputs, last) = (built.outputs(index).0, built.last_step(index));
+            let (line, end) = (&mut built.lines[index], &mut self.moment.ends[index]);
+            end.outputs = outputs;
             if !is_finite(&end.outputs) {
                 self.moment.phase = Phase::Error;
                 self.moment.step_status = StepStatus::Failed;
                 return Err(Refusal::NotANumber { line: self.interface.prefix(index), until: time });
             }
-            end.last = line.simulation.last_step();
+            end.last = last;
             if let Some(Route { plan, segment, inputs, filter }) = &line.route {
                 let missed = end.path.missed(plan, inputs);
                 let jump = warnings::of_jump(&mut end.told, begin, time - begin, missed, line.limits.length);
@@ -122,6 +138,21 @@ impl Instance {
             told.extend(of_step.into_iter().map(|text| (index, text)));
             line.linearised = None;
         }
+        let mut of_bodies = Vec::new();
+        for (index, (of, vessel)) in built.vessels.iter().zip(&mut self.moment.vessels).enumerate() {
+            let Some(voyage) = &of.voyage else { continue };
+            let (missed, told) = (vessel.missed(voyage), &mut vessel.told);
+            let length = of.hung.iter().map(|(line, _)| built.lines[*line].limits.length).fold(f64::INFINITY, f64::min);
+            of_bodies.extend(warnings::of_jump(told, begin, time - begin, missed, length).map(|text| (index, text)));
+            vessel.advance(voyage, time);
+            let said = [0, 1].map(|part: usize| warnings::of_inputs(&mut vessel.told, time, &vessel.paths[part]));
+            of_bodies.extend(said.into_iter().flatten().map(|text| (index, text)));
+        }
+        for (index, text) in of_bodies {
+            let text = format!("{}: {text}", self.interface.scene().bodies[index].name);
+            self.messages.push(Message { category: WARNING, text });
+        }
+        self.reach(time);
         self.moment.clock = time;
         told.into_iter().for_each(|(index, text)| self.warn(index, Some(text)));
         Ok(())
@@ -160,81 +191,45 @@ impl Instance {
         let mut outputs = Vec::with_capacity(unknowns.len());
         for reference in unknowns {
             let variable = self.variable(*reference, Kind::Real)?;
-            let Meaning::Output(output) = variable.meaning else {
+            if !variable.is_output() {
                 let (role, allowed) = ("an unknown", "unknowns are the Real outputs");
                 return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
-            };
-            outputs.push((variable.line, output));
+            }
+            if let (Meaning::BodyOutput(BodyOutput::Work), Some(built)) = (variable.meaning, &self.built) {
+                let of = &built.vessels[variable.line];
+                if of.hung.iter().any(|(line, anchor)| *anchor || !built.lines[*line].is_own()) {
+                    let (role, allowed) = ("an unknown", "the work on a body has a derivative where only fairleads of lines alone hang on it");
+                    return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
+                }
+            }
+            outputs.push((variable.line, variable.meaning));
         }
-        let mut directions = vec![[[0.0; 3]; 2]; self.moment.ends.len()];
+        let mut directions = Directions {
+            lines: vec![[[0.0; 3]; 2]; self.moment.ends.len()],
+            bodies: vec![[[0.0; 3]; 4]; self.moment.vessels.len()],
+            applied: vec![[[0.0; 3]; 2]; self.moment.vessels.len()],
+        };
         for (reference, seed) in knowns.iter().zip(seeds) {
             let variable = self.variable(*reference, Kind::Real)?;
-            let Meaning::Input(input) = variable.meaning else {
-                let (role, allowed) = ("a known", "knowns are position and velocity of the fairlead");
-                return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
-            };
             if !seed.is_finite() {
                 return Err(Refusal::Derivative { name: variable.name.clone(), order: 0, value: *seed });
             }
-            let (order, axis) = input.component();
-            directions[variable.line][order][axis] += seed;
+            Instance::add_direction(variable, *seed, &mut directions)?;
         }
-        if self.moment.phase == Phase::Initialization {
+        let changes = if self.moment.phase == Phase::Initialization {
             self.settle()?;
-            return self.static_directions(&outputs, &directions);
-        }
-        let until = self.moment.clock + self.moment.last_step_size;
-        self.plan(until)?;
-        let mut changes = vec![None; directions.len()];
-        for (line, _) in &outputs {
-            if changes[*line].is_none() && directions[*line] != [[0.0; 3]; 2] {
-                changes[*line] = Some(self.change(*line, until, directions[*line])?);
-            }
-        }
-        Ok(outputs.iter().map(|(line, output)| changes[*line].as_ref().map_or(0.0, |change| output.of(change))).collect())
-    }
-
-    /// Changes of outputs in equilibrium along directions of the positions; velocities change nothing there.
-    fn static_directions(&mut self, outputs: &[(usize, Output)], directions: &[[[f64; 3]; 2]]) -> Result<Vec<f64>, Refusal> {
-        let mut changes: Vec<Option<Outputs>> = vec![None; directions.len()];
-        for (index, _) in outputs {
-            let direction = Vector3::from(directions[*index][0]);
-            if changes[*index].is_none() && direction != Vector3::zeros() {
-                let line = self.built.as_mut().and_then(|built| built.lines.get_mut(*index)).ok_or(Refusal::UnknownState)?;
-                let change = line.simulation.static_derivative(line.origin.into(), direction);
-                changes[*index] = Some(change.map_err(Refusal::Solver)?);
-            }
-        }
-        Ok(outputs.iter().map(|(index, output)| changes[*index].as_ref().map_or(0.0, |change| output.of(change))).collect())
-    }
-
-    /// Change of a line's outputs at a time along a direction of its inputs now. The steps there are linearised once and kept until
-    /// the inputs change or a step is done.
-    fn change(&mut self, line: usize, until: f64, direction: [[f64; 3]; 2]) -> Result<Outputs, Refusal> {
-        let End { path, filter: before, inputs: given, .. } = &self.moment.ends[line];
-        let built = self.built.as_mut().ok_or(Refusal::UnknownState)?;
-        let cutoff = built.filter;
-        let line = built.lines.get_mut(line).ok_or(Refusal::UnknownState)?;
-        let Some(Route { plan, segment, inputs, filter }) = &line.route else { return Err(Refusal::UnknownState) };
-        let direction = if cutoff > 0.0 {
-            // The filter is linear.
-            let values = [std::array::from_fn(|axis| given.values[0][axis] + direction[0][axis]), [0.0; 3]];
-            let moved = before.after(cutoff, plan.time(), &Inputs { values, ..Inputs::default() });
-            [
-                std::array::from_fn(|axis| moved.position[axis] - filter.position[axis]),
-                std::array::from_fn(|axis| moved.velocity[axis] - filter.velocity[axis]),
-            ]
+            self.static_changes(&directions)?
         } else {
-            direction
+            let until = self.moment.clock + self.moment.last_step_size;
+            self.plan(until)?;
+            self.changes(until, &directions)?
         };
-        let kept = line.linearised.take().filter(|(end, along, _)| *end == until && along == segment);
-        let kept = match kept {
-            Some(kept) => kept,
-            None => (until, segment.clone(), line.simulation.linearise(until, &segment.path()).map_err(Refusal::Solver)?),
+        let value = |(owner, meaning): &(usize, Meaning)| match meaning {
+            Meaning::Output(output) => changes.lines[*owner].as_ref().map_or(0.0, |change| output.of(change)),
+            Meaning::BodyOutput(output) => self.body_change(*owner, *output, &changes),
+            _ => 0.0,
         };
-        let variation = path.variation(plan, inputs, direction).path();
-        let (_, _, steps) = line.linearised.insert(kept);
-        line.simulation.derivative(steps, &variation).map_err(Refusal::Solver)
+        Ok(outputs.iter().map(value).collect())
     }
 }
 

@@ -253,6 +253,7 @@ impl Group {
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.fresh, self.last) = (true, LastStep::default());
+        self.works.fill(0.0);
     }
 }
 
