@@ -42,6 +42,10 @@ pub enum EndOf {
 pub struct Differences {
     /// Of the outputs of its lines.
     pub lines: Vec<Outputs>,
+    /// These outputs themselves.
+    pub outputs: Vec<Outputs>,
+    /// Position and angles of its bodies themselves.
+    pub poses: Vec<[Vector3<f64>; 2]>,
     /// Of position, angles, velocity and angular velocity of its bodies.
     pub bodies: Vec<Vec<Vector3<f64>>>,
     /// Of position and velocity of its points.
@@ -370,12 +374,13 @@ impl Group {
             group.restore(&now);
             outcome
         };
-        let ends = at(self, share).and_then(|after| Ok((after, at(self, -share)?)));
-        drive(self, 0.0);
+        let ends = at(self, share).and_then(|after| Ok((after, at(self, -share)?, at(self, 0.0)?)));
         (self.controller.tally, self.newton.effort, self.before) = (tally, effort, before);
-        let (after, before) = ends?;
+        let (after, before, here) = ends?;
         let per = 0.5 / share;
         Ok(Differences {
+            outputs: here.0,
+            poses: here.1.iter().map(|body| [body[0], body[1]]).collect(),
             lines: after.0.iter().zip(&before.0).map(|(a, b)| outputs::difference(a, b, per)).collect(),
             bodies: after.1.iter().zip(&before.1).map(|(a, b)| a.iter().zip(b).map(|(x, y)| (x - y) * per).collect()).collect(),
             points: after.2.iter().zip(&before.2).map(|(a, b)| [0, 1].map(|order: usize| (a[order] - b[order]) * per)).collect(),

@@ -129,7 +129,12 @@ class Line:
         return self
 
     def move(self, motion, time: float, velocities: bool = True):
-        position, velocity = motion(time)[:2]
+        """Inputs of a motion: position and velocity of the fairlead, or all inputs by name."""
+        said = motion(time)
+        if isinstance(said, dict):
+            assert self.set_real(said) == OK, self.log
+            return
+        position, velocity = said[:2]
         values = {f"fairlead.position.{a}": x for a, x in zip("xyz", position)}
         if velocities:
             values |= {f"fairlead.velocity.{a}": v for a, v in zip("xyz", velocity)}

@@ -42,6 +42,9 @@ pub(super) struct Changes {
     /// Of a driven body: change of its position and rotation vector at the end; of a free one, of position, angles, velocity and angular velocity.
     pub bodies: Vec<Vec<Vector3<f64>>>,
     pub points: Vec<[Vector3<f64>; 2]>,
+    /// The outputs of lines that change, and position and angles of all bodies, at the time of the change.
+    pub outputs: Vec<Option<Outputs>>,
+    pub poses: Vec<[Vector3<f64>; 2]>,
 }
 
 /// Change of the path of a fairlead given by coordinates, along a direction of its inputs.
@@ -250,19 +253,24 @@ impl Instance {
         let Some(built) = &self.built else { return 0.0 };
         let conventions = built.conventions[body];
         let (reached, of) = (&self.moment.vessels[body].reached, &changes.bodies[body]);
+        let [position, angles] = changes.poses[body];
         let (mut force, mut moment, mut work) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+        let (mut whole, mut torque) = (Vector3::zeros(), Vector3::zeros());
         for (line, anchor) in &built.vessels[body].hung {
+            let now = changes.outputs[*line].unwrap_or(self.moment.ends[*line].outputs);
+            let (place, pull) = if *anchor { (now.anchor, now.anchor_force) } else { (now.fairlead, now.force) };
+            whole += pull;
+            torque += (place - position).cross(&pull);
             let Some(change) = &changes.lines[*line] else { continue };
-            let now = self.moment.ends[*line].outputs;
             let of_end = |outputs: &Outputs| if *anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) };
             let ((place, pull), (moved, changed)) = (of_end(&now), of_end(change));
             force += changed;
-            moment += (moved - of[0]).cross(&pull) + (place - reached.position).cross(&changed);
+            moment += (moved - of[0]).cross(&pull) + (place - position).cross(&changed);
             work += if *anchor { 0.0 } else { change.work };
         }
-        let turn = rotation::of_angles(&reached.angles);
+        let turn = rotation::of_angles(&angles);
         let turned = match built.vessels[body].member {
-            Some(_) => rotation::rates_to_omega(&reached.angles) * of[1],
+            Some(_) => rotation::rates_to_omega(&angles) * of[1],
             None => of[1],
         };
         let along = |change: Vector3<f64>, of: Vector3<f64>, body: bool| {
@@ -270,8 +278,8 @@ impl Instance {
         };
         let free = |number: usize| of.get(number).copied().unwrap_or_else(Vector3::zeros);
         match output {
-            BodyOutput::Force(axis) => along(force, reached.force, conventions.body_loads)[axis],
-            BodyOutput::Moment(axis) => along(moment, reached.moment, conventions.body_loads)[axis],
+            BodyOutput::Force(axis) => along(force, whole, conventions.body_loads)[axis],
+            BodyOutput::Moment(axis) => along(moment, torque, conventions.body_loads)[axis],
             BodyOutput::Work => work,
             BodyOutput::Motion(Part::Position, axis) => along(free(0), Vector3::zeros(), false)[axis],
             BodyOutput::Motion(Part::Attitude, axis) => along(free(1), Vector3::zeros(), false)[axis],
@@ -291,7 +299,7 @@ impl Instance {
             Meaning::BodyInput(BodyInput::Motion(part, axis)) => directions.bodies[variable.line][number_of(part)][axis] += seed,
             Meaning::BodyInput(BodyInput::Applied(part, axis)) => directions.applied[variable.line][part][axis] += seed,
             _ => {
-                let (role, allowed) = ("a known", "knowns are the Real inputs");
+                let (role, allowed) = ("a known", "knowns are position and velocity of fairleads, and the inputs of bodies");
                 return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
             }
         }
@@ -332,7 +340,9 @@ impl Instance {
                 lines[index] = Some(simulation.static_derivative_ends(ends, ways).map_err(Refusal::Solver)?);
             }
         }
-        Ok(Changes { lines, bodies: of_bodies, points: Vec::new() })
+        let poses = built.vessels.iter().map(|of| of.path.pose(self.moment.clock)).collect();
+        let outputs = vec![None; lines.len()];
+        Ok(Changes { lines, bodies: of_bodies, points: Vec::new(), outputs, poses })
     }
 
     /// Changes at a time along directions of the inputs now.
@@ -358,6 +368,8 @@ impl Instance {
             of_bodies.push(change);
         }
         let mut lines = vec![None; built.lines.len()];
+        let mut outputs = vec![None; built.lines.len()];
+        let mut poses: Vec<[Vector3<f64>; 2]> = built.vessels.iter().map(|of| of.path.pose(until)).collect();
         for index in 0..built.lines.len() {
             if directions.is_zero_for(built, index) || !built.lines[index].is_own() {
                 continue;
@@ -384,18 +396,20 @@ impl Instance {
             };
             let (_, _, steps) = line.linearised.insert(kept);
             lines[index] = Some(simulation.derivative_ends(steps, &variation, anchor.as_ref()).map_err(Refusal::Solver)?);
+            outputs[index] = simulation.outputs_at_end(steps);
         }
         let mut points = Vec::new();
         for group in 0..built.groups.len() {
             let differences = built.group_differences(group, until, directions, &paths, &self.moment).map_err(Refusal::Solver)?;
-            for (line, change) in built.groups[group].together().lines.iter().zip(&differences.lines) {
-                lines[*line] = Some(*change);
+            let together = built.groups[group].together();
+            for (number, line) in together.lines.iter().enumerate() {
+                (lines[*line], outputs[*line]) = (Some(differences.lines[number]), Some(differences.outputs[number]));
             }
-            for (body, change) in built.groups[group].together().bodies.iter().zip(differences.bodies) {
-                of_bodies[*body] = change;
+            for ((body, change), pose) in together.bodies.iter().zip(differences.bodies).zip(differences.poses) {
+                (of_bodies[*body], poses[*body]) = (change, pose);
             }
             points.extend(differences.points);
         }
-        Ok(Changes { lines, bodies: of_bodies, points })
+        Ok(Changes { lines, bodies: of_bodies, points, outputs, poses })
     }
 }

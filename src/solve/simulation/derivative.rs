@@ -135,6 +135,13 @@ impl Simulation {
         outcome.map_err(|failure| Error::Step(Box::new(self.stuck(&failure, variation, steps.time))))
     }
 
+    /// Outputs at the end of linearised steps; none where they are repeated.
+    pub fn outputs_at_end(&self, steps: &Linearised) -> Option<Outputs> {
+        let state = steps.states.last().filter(|_| steps.repeated.is_none())?;
+        let line = steps.spatial.as_deref().unwrap_or(self.line.as_ref());
+        Some(outputs::outputs(line, state, state.clock.now, 0.0, &mut Vec::new()))
+    }
+
     /// Central differences of the report's steps: each is one linear solve, and takes less time than to differentiate it would.
     fn difference_of_repeats(&mut self, (from, until, path): &Repeated, variation: &Path) -> Result<Outputs, Failure> {
         let now = self.snapshot();
