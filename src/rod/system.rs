@@ -36,10 +36,17 @@ pub trait System: Send + Sync {
     fn links(&self) -> Option<&Links> {
         None
     }
+    /// Takes the forces on nodes that hang on bodies and points to these, by the levers of now.
+    fn gather(&self, _: &Motion, _: &mut Field) {}
     /// Moves the nodes that hang on bodies and points with these.
     fn follow(&self, _: &mut State) {}
     /// Lets the rotation vectors of free bodies count from where they are.
     fn recentre(&self, _: &mut State) {}
+    /// Largest displacement of a free body or point in an increment, turns at the reach of the body: what these do is the sum of what is left of
+    /// their accelerations, step by step, so that they must be iterated closer than what a line does.
+    fn loose(&self, _: &Field) -> f64 {
+        0.0
+    }
     /// Displacement of each hanging node per unit of its master's six unknowns.
     fn levers(&self, _: &Motion, _: &mut [Matrix3x6<f64>]) {}
 }

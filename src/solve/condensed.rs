@@ -1,7 +1,7 @@
 //! The factor of a network: lines that hang on bodies and points, and these.
 //!
 //! ```text
-//! x_e = B y,   S = A_yy + Bᵀ (A_ee - A_ef A_ff⁻¹ A_fe) B,   S y = b_y + Bᵀ (b_e - A_ef A_ff⁻¹ b_f),   x_f = A_ff⁻¹ (b_f - A_fe x_e)
+//! x_e = B y,   S = A_yy + Bᵀ (A_ee - A_ef A_ff⁻¹ A_fe) B,   S y = b_y + Bᵀ b_e - Bᵀ A_ef A_ff⁻¹ b_f,   x_f = A_ff⁻¹ (b_f - A_fe x_e)
 //! ```
 //!
 //! y unknowns of bodies and points (masters), x_e positions of the ends that hang on them, x_f all else of the lines, B levers. With the
@@ -172,7 +172,8 @@ impl Condensed {
         Ok(())
     }
 
-    /// Solves with the factor: b becomes the solution.
+    /// Solves with the factor: b, of which forces on hanging ends have been taken to their masters, becomes the solution. The levers of the factor
+    /// may be those of another time; those of the forces may not.
     pub fn solve(&self, b: &mut Field) {
         let mut right = DVector::zeros(self.condensed.nrows());
         for (number, &node) in self.links.masters.iter().enumerate() {
@@ -181,9 +182,7 @@ impl Condensed {
                 b.component_mut(c)[node] = 0.0;
             }
         }
-        for (link, lever) in self.links.links.iter().zip(&self.levers) {
-            let mut part = right.fixed_rows_mut::<6>(6 * link.master);
-            part += lever.tr_mul(&b.position(link.node));
+        for link in &self.links.links {
             b.set_position(link.node, &Vector3::zeros());
         }
         let stride = b.stride();

@@ -77,6 +77,8 @@ pub struct Group {
     before: Option<Box<Snapshot>>,
 }
 
+/// Increments of bodies and points that are left of an iteration, as a share of the error of a step.
+const LOOSE: f64 = 1.0e-2;
 /// Largest share of the tolerance that an error of position may be of the reach of a body that no line holds.
 const ALONE: f64 = 1.0e-2;
 
@@ -196,7 +198,7 @@ impl Group {
                 finest_step: crossing,
                 max_step: scene.solver.max_step,
                 fixed_step: scene.solver.uncontrolled_step(),
-                criteria: Criteria { tolerance, length, iterations: 12 },
+                criteria: Criteria { tolerance, length, emphasis: 1.0, iterations: 12 },
             },
             moment,
             network,
@@ -209,8 +211,15 @@ impl Group {
             others: false,
             before: None,
         };
+        group.emphasise();
         group.put_as_in(scene);
         Ok(group)
+    }
+
+    /// Iterates bodies and points as closely as the error of a step asks.
+    fn emphasise(&mut self) {
+        let Criteria { tolerance, length, .. } = self.demands.criteria;
+        self.demands.criteria.emphasis = (tolerance * length / (LOOSE * self.demands.error)).max(1.0);
     }
 
     /// Puts free bodies and points where a scene has them.
@@ -527,6 +536,25 @@ impl Group {
         self.fresh = true;
     }
 
+    /// Momentum of one of its lines [kg·m/s] and its moment about the origin [kg·m²/s], by the shapes of its elements; the water apart.
+    pub fn line_momentum(&mut self, local: usize) -> (Vector3<f64>, Vector3<f64>) {
+        let simulation = self.shown(local);
+        let (mesh, state) = (simulation.line().mesh(), simulation.state());
+        let (mut momentum, mut turning) = (Vector3::zeros(), Vector3::zeros());
+        for (e, element) in mesh.elements.iter().enumerate().filter(|(_, element)| !element.is_joint()) {
+            for crate::algebra::shape::GaussPoint { x, weight } in crate::algebra::shape::GAUSS3 {
+                let n = crate::algebra::shape::Shape::at(x).scaled(element.length).value;
+                let at = |field: &Field| {
+                    field.position(e) * n[0] + field.slope(e) * n[1] + field.position(e + 1) * n[2] + field.slope(e + 1) * n[3]
+                };
+                let part = at(&state.v) * (weight * element.length * mesh.properties_of(e).mass);
+                momentum += part;
+                turning += at(&state.u).cross(&part);
+            }
+        }
+        (momentum, turning)
+    }
+
     /// Time now [s].
     pub fn time(&self) -> f64 {
         self.moment.state.clock.now
@@ -568,6 +596,7 @@ impl Group {
         }
         let (error, fresh, last) = snapshot.bring_back(&mut self.moment, &mut self.newton, &mut self.works);
         (self.demands.error, self.fresh, self.last) = (error, fresh, last);
+        self.emphasise();
         true
     }
 

@@ -21,6 +21,8 @@ pub struct Memory {
     pub origin: Option<Arc<Origin>>,
     /// How the iteration contracted last: each increment over the one before.
     pub rate: f64,
+    /// The same of free bodies and points alone.
+    pub loose_rate: f64,
     /// Whole steps failed where shortened ones did not: near a kink that the line keeps crossing.
     pub rough: bool,
 }
@@ -28,7 +30,7 @@ pub struct Memory {
 impl Memory {
     /// Before the first stage.
     pub fn none() -> Memory {
-        Memory { origin: None, rate: 1.0, rough: false }
+        Memory { origin: None, rate: 1.0, loose_rate: 1.0, rough: false }
     }
 
     /// Weights of the factor that the next stage may use.

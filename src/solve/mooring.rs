@@ -6,6 +6,7 @@ use crate::scene::bodies::Matrix;
 use crate::scene::read::Loaded;
 use crate::scene::types::Scene;
 use crate::solve::fleet;
+use crate::solve::newton::Newton;
 use crate::solve::loads::{self, BodyOutputs, Pose};
 use crate::solve::part::Part;
 use crate::solve::partition;
@@ -168,8 +169,10 @@ impl Mooring {
 impl Simulation {
     /// Static stiffness of the line against its ends, rows and columns of the anchor before those of the fairlead [N/m]; none where the line has
     /// none of its own.
-    pub fn end_stiffness(&mut self) -> Option<Matrix6<f64>> {
-        let (line, newton, state) = self.for_stiffness();
-        newton.end_stiffness(line, state)
+    pub fn end_stiffness(&self) -> Option<Matrix6<f64>> {
+        let state = self.state();
+        // Across its plane a line is stiff, too, whether that is solved for or not.
+        let line = self.in_space();
+        Newton::new(line.as_ref()).end_stiffness(line.as_ref(), state)
     }
 }

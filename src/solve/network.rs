@@ -41,6 +41,19 @@ pub struct Network {
 }
 
 impl Network {
+    /// Displacement of a hanging node per unit of its master's six unknowns.
+    fn lever(&self, number: usize, at: &Motion) -> Matrix3x6<f64> {
+        let mut lever = Matrix3x6::zeros();
+        lever.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+        let link = &self.links.links[number];
+        if let (Some(arm), Some(body)) = (self.arms[number], self.body_at(self.links.masters[link.master])) {
+            let turned = body.motion(at).rotation * arm;
+            let by_turn = -rotation::cross(&turned) * rotation::jacobian(&at.u.slope(body.node));
+            lever.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_turn);
+        }
+        lever
+    }
+
     /// A network; `driven` ends are fixed for the solver.
     pub fn new(
         rod: Box<dyn Line>,
@@ -65,16 +78,9 @@ impl Network {
     }
 
     /// Forces that reach bodies and points at a motion: the residual with that of hanging ends taken to their masters.
-    pub fn gathered(&self, at: &Motion, levers: &mut [Matrix3x6<f64>], out: &mut Field) {
+    pub fn gathered(&self, at: &Motion, out: &mut Field) {
         self.residual(at, out);
-        self.levers(at, levers);
-        for (link, lever) in self.links.links.iter().zip(levers.iter()) {
-            let six = lever.tr_mul(&out.position(link.node));
-            let master = self.links.masters[link.master];
-            out.set_position(master, &(out.position(master) + six.fixed_rows::<3>(0)));
-            out.set_slope(master, &(out.slope(master) + six.fixed_rows::<3>(3)));
-            out.set_position(link.node, &Vector3::zeros());
-        }
+        self.gather(at, out);
         self.fixed.iter().for_each(|&(node, component)| out.component_mut(component)[node] = 0.0);
     }
 }
@@ -192,16 +198,27 @@ impl System for Network {
         }
     }
 
-    fn levers(&self, at: &Motion, out: &mut [Matrix3x6<f64>]) {
-        for ((link, arm), lever) in self.links.links.iter().zip(&self.arms).zip(out) {
-            lever.fill(0.0);
-            lever.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-            if let (Some(arm), Some(body)) = (arm, self.body_at(self.links.masters[link.master])) {
-                let turned = body.motion(at).rotation * arm;
-                let by_turn = -rotation::cross(&turned) * rotation::jacobian(&at.u.slope(body.node));
-                lever.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_turn);
-            }
+    fn loose(&self, increment: &Field) -> f64 {
+        let mut largest = 0.0_f64;
+        for node in &self.links.masters {
+            let turn = self.body_at(*node).map_or(0.0, |body| body.reach() * increment.slope(*node).norm());
+            largest = largest.max(increment.position(*node).norm()).max(turn);
         }
+        largest
+    }
+
+    fn gather(&self, at: &Motion, out: &mut Field) {
+        for (number, link) in self.links.links.iter().enumerate() {
+            let six = self.lever(number, at).tr_mul(&out.position(link.node));
+            let master = self.links.masters[link.master];
+            out.set_position(master, &(out.position(master) + six.fixed_rows::<3>(0)));
+            out.set_slope(master, &(out.slope(master) + six.fixed_rows::<3>(3)));
+            out.set_position(link.node, &Vector3::zeros());
+        }
+    }
+
+    fn levers(&self, at: &Motion, out: &mut [Matrix3x6<f64>]) {
+        out.iter_mut().enumerate().for_each(|(number, lever)| *lever = self.lever(number, at));
     }
 }
 

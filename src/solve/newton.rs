@@ -23,6 +23,8 @@ pub struct Criteria {
     pub tolerance: f64,
     /// Length that scales positions [m].
     pub length: f64,
+    /// How much more an increment of free bodies and points counts.
+    pub emphasis: f64,
     /// Iterations before giving up.
     pub iterations: usize,
 }
@@ -279,10 +281,10 @@ impl Newton {
     fn iterate(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
         if !self.memory.weights().is_some_and(fresh) || self.remake(line).is_err() {
-            self.memory.rate = 1.0;
+            (self.memory.rate, self.memory.loose_rate) = (1.0, 1.0);
             self.factor(line, &motion(trial), weights, None)?;
         }
-        let mut last = f64::INFINITY;
+        let (mut last, mut last_loose) = (f64::INFINITY, f64::INFINITY);
         let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
         for _ in 0..criteria.iterations {
             self.find_increment(line, trial);
@@ -296,9 +298,18 @@ impl Newton {
             if last.is_finite() {
                 self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
             }
-            let rate = self.memory.rate;
-            if size * (rate / (1.0 - rate).max(0.1)).min(1.0) < criteria.tolerance {
-                return Ok(());
+            let left = |size: f64, rate: f64| size * (rate / (1.0 - rate).max(0.1)).min(1.0) < criteria.tolerance;
+            if left(size, self.memory.rate) {
+                let loose = line.loose(&self.increment) * scales[0] * criteria.emphasis;
+                if loose > 0.0 && last_loose.is_finite() {
+                    self.memory.loose_rate = (loose / last_loose).max(0.3 * self.memory.loose_rate).min(1.0);
+                }
+                last_loose = loose;
+                if left(loose, self.memory.loose_rate) {
+                    return Ok(());
+                }
+                last = size;
+                continue;
             }
             if contraction > 2.0 && new_factor {
                 return Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 });
@@ -322,12 +333,14 @@ impl Newton {
     ) -> Result<(), Stall> {
         self.memory.rate = 1.0;
         line.residual(&motion(trial), &mut self.residual);
+        line.gather(&motion(trial), &mut self.residual);
         for _ in 0..DAMPED {
             self.factor(line, &motion(trial), weights, None)?;
             self.effort.iterations += 1;
             self.increment.copy_from(&self.residual);
             self.unknowns.solve(line, &mut self.increment);
             let (size, node) = self.size(weights.u, criteria.length);
+            let size = size.max(line.loose(&self.increment) * weights.u.abs() / criteria.length * criteria.emphasis);
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node });
             }
@@ -343,6 +356,7 @@ impl Newton {
                     line.follow(trial);
                     taken = share;
                     line.residual(&motion(trial), &mut self.residual);
+                    line.gather(&motion(trial), &mut self.residual);
                 }
                 // The increment of what is prescribed is zero.
                 -self.residual.dot(&self.increment)
@@ -355,6 +369,7 @@ impl Newton {
     fn find_increment(&mut self, line: &dyn System, trial: &State) {
         self.effort.iterations += 1;
         line.residual(&motion(trial), &mut self.increment);
+        line.gather(&motion(trial), &mut self.increment);
         self.unknowns.solve(line, &mut self.increment);
     }
 

@@ -118,6 +118,7 @@ impl Bench<'_> {
             return;
         }
         self.line.inertia(&motion(state), error, scratch);
+        self.line.gather(&motion(state), scratch);
         self.newton.solve_linear(self.line, scratch);
         std::mem::swap(error, scratch);
     }

@@ -282,7 +282,7 @@ impl Simulation {
         // A stiff line that carries little: what the iteration leaves is a strain, and a strain is a force.
         let scale = Scale::of(scene, &scene.lines[index], line.as_ref());
         let tolerance = tolerance * scale.strictness(line.as_ref());
-        let criteria = Criteria { tolerance, length, iterations: 12 };
+        let criteria = Criteria { tolerance, length, emphasis: 1.0, iterations: 12 };
         let mut simulation = Simulation {
             name: scene.lines[index].name.clone(),
             surroundings,
@@ -672,11 +672,6 @@ impl Simulation {
     /// What holds and loads it.
     pub(in crate::solve) fn supports(&self) -> &Supports {
         &self.supports
-    }
-
-    /// What its stiffness is made of.
-    pub(in crate::solve) fn for_stiffness(&mut self) -> (&dyn Line, &mut Newton, &State) {
-        (self.line.as_ref(), &mut self.newton, &self.moment.state)
     }
 
     /// What its steps have to meet.

@@ -107,9 +107,9 @@ impl Snapshot {
         out.reserve(8 * (words.len() + SCALARS + 18 * m.state.frames.len() + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())));
         words.into_iter().for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
         let clock = m.state.clock;
-        let steps = [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate];
+        let steps = [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate, memory.loose_rate];
         write(&steps, out);
-        let scalars: [f64; SCALARS - 6] = [self.work, self.anchor_work, self.error, last.error_estimate];
+        let scalars: [f64; SCALARS - 7] = [self.work, self.anchor_work, self.error, last.error_estimate];
         write(&scalars, out);
         [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds].into_iter().for_each(|field| write_field(field, out));
         m.state.frames.iter().for_each(|frame| write(frame.as_slice(), out));
@@ -148,7 +148,7 @@ impl Snapshot {
         }
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
         let clock = Clock { now: number()?, start: number()? };
-        let (last_step, step, tried, rate) = (number()?, number()?, number()?, number()?);
+        let (last_step, step, tried, rate, loose_rate) = (number()?, number()?, number()?, number()?, number()?);
         let (work, anchor_work, error, error_estimate) = (number()?, number()?, number()?, number()?);
         let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
         let (earlier, holds) = (field(nodes, &mut number)?, field(holding, &mut number)?);
@@ -165,7 +165,7 @@ impl Snapshot {
         let origin = if kept { Some(origin()?) } else { None };
         Some(Snapshot {
             moment: Moment { state: State { clock, u, v, a, holds, frames }, earlier, last_step, step, tried, guard },
-            memory: Memory { origin, rate, rough },
+            memory: Memory { origin, rate, loose_rate, rough },
             tensions,
             work,
             anchor_work,
@@ -182,7 +182,7 @@ impl Snapshot {
 /// Flags of a state.
 const FLAGS: usize = 5;
 /// Scalars of a state.
-const SCALARS: usize = 10;
+const SCALARS: usize = 11;
 
 fn write(numbers: &[f64], out: &mut Vec<u8>) {
     out.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));

@@ -18,7 +18,7 @@ use crate::rod::system::System;
 use crate::solve::condensed::Condensed;
 use crate::solve::newton::{Effort, motion};
 use crate::solve::simulation::{LastStep, StaticsReport};
-use nalgebra::{DMatrix, DVector, Matrix3x6, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Iterations at most.
 const ITERATIONS: usize = 200;
@@ -208,8 +208,7 @@ impl Group {
             pulls = pulls.max(outputs.tension).max(outputs.anchor_tension);
         }
         let mut residual = Field::new(self.network.nodes());
-        let mut levers = vec![Matrix3x6::zeros(); self.network.links.links.len()];
-        self.network.gathered(&motion(&state), &mut levers, &mut residual);
+        self.network.gathered(&motion(&state), &mut residual);
         let of_bodies = self.network.bodies.iter().map(Rigid::weight).sum::<f64>();
         let weight = of_bodies + self.network.rod.mesh().total_weight() + self.network.rod.burden();
         let aimed = AIMED * weight.max(pulls).max(f64::MIN_POSITIVE);
@@ -250,6 +249,7 @@ impl Group {
         if finest.is_finite() {
             self.demands.error = finest;
         }
+        self.emphasise();
         self.newton.forget();
         self.newton.effort = Effort::default();
         (self.fresh, self.last) = (true, LastStep::default());

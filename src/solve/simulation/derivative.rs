@@ -97,7 +97,8 @@ impl Simulation {
         Ok(outputs::difference(&after, &before, 0.5 / share))
     }
 
-    fn in_space(&self) -> Box<dyn Line> {
+    /// The same line in space.
+    pub(in crate::solve) fn in_space(&self) -> Box<dyn Line> {
         let surroundings = Surroundings { planar: false, ..self.surroundings.clone() };
         physics::build(self.line.mesh().clone(), surroundings, self.supports.clone())
     }
