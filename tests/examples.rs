@@ -3,8 +3,10 @@
 mod support;
 
 use moorline::scene::read::{self, Loaded};
+use moorline::solve::mooring::Mooring;
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::{Outputs, Simulation};
+use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use support::{GRAVITY, Hanging, Piece, assert_close, bisect, weight};
 
@@ -233,4 +235,151 @@ fn calm_line_has_the_mean_tension_of_the_report() {
     let rows = history(&scene);
     let largest = rows.iter().map(|row| row.tension).fold(0.0, f64::max);
     assert_close("largest tension", largest, 102.0 * 4448.2216, 3e-3);
+}
+
+/// All lines of a scene in equilibrium, with its mooring.
+fn moored(scene: &Loaded) -> (Mooring, Vec<Outputs>) {
+    let mut mooring = Mooring::new(scene).unwrap_or_else(|error| panic!("{error}"));
+    let mut outputs = vec![None; scene.scene.lines.len()];
+    for part in &mut mooring.parts {
+        part.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
+        for (local, index) in part.lines().to_vec().into_iter().enumerate() {
+            outputs[index] = Some(part.outputs(local));
+        }
+    }
+    (mooring, outputs.into_iter().flatten().collect())
+}
+
+/// A line of one section between the ends where it was found, in closed form (Irvine 1981), hanging or partly on a rigid level bed: its tensions at
+/// fairlead and anchor are those of the catenary: to 1e-4 where it hangs under water, 2e-3 where it rises out of it (and weighs more), 1e-3
+/// and twice the diameter over the rise where it lies on a bed that is soft over the diameter of the line.
+fn hangs_as_a_catenary(scene: &Loaded, index: usize, outputs: &Outputs) {
+    let line = &scene.scene.lines[index];
+    let of = &scene.scene.line_types[&line.sections[0].line_type];
+    let (density, gravity) = (scene.scene.environment.water_density, scene.scene.environment.gravity);
+    let piece = [Piece { length: line.length(), weight: of.weight_in_water(density, gravity), ea: of.ea }];
+    let (low, high) = if outputs.fairlead.z < outputs.anchor.z { (outputs.fairlead, outputs.anchor) } else { (outputs.anchor, outputs.fairlead) };
+    let (span, rise) = ((high - low).xy().norm(), high.z - low.z);
+    let tensions = if outputs.fairlead.z < outputs.anchor.z { [outputs.anchor_tension, outputs.tension] } else { [outputs.tension, outputs.anchor_tension] };
+    let name = &line.name;
+    if outputs.grounded_length == 0.0 {
+        let exact = Hanging::spanning(&piece, span, rise);
+        let allowed = if high.z > 0.0 { 2e-3 } else { 1e-4 };
+        assert_close(&format!("{name}, upper end"), tensions[0], exact.tension(&piece, piece[0].length), allowed);
+        assert_close(&format!("{name}, lower end"), tensions[1], exact.tension(&piece, 0.0), allowed);
+        return;
+    }
+    let Piece { length, weight, ea } = piece[0];
+    let allowed = 1e-3 + 2.0 * of.diameter / rise;
+    // The length that is lifted by a horizontal force carries the rise.
+    let lifted = |h: f64| bisect(0.0, length, |s| h / weight * ((1.0 + (weight * s / h).powi(2)).sqrt() - 1.0) + weight * s * s / (2.0 * ea) - rise);
+    let reach = |h: f64| {
+        let s = lifted(h);
+        (length - s) * (1.0 + h / ea) + h / weight * (weight * s / h).asinh() + h * s / ea
+    };
+    let h = bisect(0.01 * weight * rise, 100.0 * weight * rise, |h| reach(h) - span);
+    assert_close(&format!("{name}, fairlead"), tensions[0], h.hypot(weight * lifted(h)), allowed);
+    assert_close(&format!("{name}, anchor"), tensions[1], h, allowed);
+}
+
+/// Source: the public data of the OC4 semi-submersible's mooring, on a rigid bed: 1105.7 kN at the fairleads, 907.8 kN at the anchors.
+#[test]
+fn semi_submersible_pulls_as_its_data_say() {
+    let scene = load("semi-submersible.json");
+    let (_, outputs) = moored(&scene);
+    for (index, line) in outputs.iter().enumerate() {
+        assert_close("fairlead", line.tension, 1105.7e3, 1e-4);
+        assert_close("anchor", line.anchor_tension, 907.8e3, 1e-4);
+        hangs_as_a_catenary(&scene, index, line);
+    }
+}
+
+/// Source: catenaries on a bed in closed form; the stiffness is that of the catenaries' forces, by differences of their closed form.
+#[test]
+fn spread_moored_ship_hangs_on_eight_catenaries() {
+    let scene = load("spread-moored-ship.json");
+    let (mut mooring, outputs) = moored(&scene);
+    for (index, line) in outputs.iter().enumerate() {
+        assert_close("tension", line.tension, 361.7e3, 1e-3);
+        hangs_as_a_catenary(&scene, index, line);
+    }
+    let stiffness = mooring.stiffness(0, 0.0).expect("a stiffness");
+    assert_close("surge", stiffness[0][0], 83.2e3, 3e-3);
+    assert_close("sway", stiffness[1][1], 60.6e3, 3e-3);
+}
+
+/// Source: every bridle a catenary between the places found, and nothing left over at the points where they meet.
+#[test]
+fn crowfoot_bridles_meet_in_balance() {
+    let scene = load("crowfoot.json");
+    let (mut mooring, outputs) = moored(&scene);
+    for foot in 0..3 {
+        let [one, two, line] = [0, 1, 2].map(|k: usize| &outputs[3 * foot + k]);
+        assert!((one.anchor - line.fairlead).norm() < 1e-9, "they do not meet");
+        let left = one.anchor_force + two.anchor_force + line.force;
+        assert!(left.norm() < 1e-5 * line.tension, "{left:?} N is left");
+        assert_close("bridle", one.tension, 1180.0e3, 1e-3);
+    }
+    (0..9).for_each(|index| hangs_as_a_catenary(&scene, index, &outputs[index]));
+    let stiffness = mooring.stiffness(0, 0.0).expect("a stiffness");
+    assert_close("yaw", stiffness[5][5], 163.0e6, 5e-3);
+}
+
+/// Source: elastic catenary between two ships.
+#[test]
+fn towline_hangs_between_two_ships() {
+    let scene = load("towline.json");
+    let (_, outputs) = moored(&scene);
+    hangs_as_a_catenary(&scene, 0, &outputs[0]);
+    assert_close("tug", outputs[0].tension, 157.0e3, 1e-3);
+    assert_close("barge", outputs[0].anchor_tension, 157.6e3, 1e-3);
+}
+
+/// Source: Archimedes on a cut cylinder: its volume is that of the wet length of its axis, its centre off the axis by r² tan β/(4L) and at L/2 + r² tan² β/(8L)
+/// from the bottom; weight, buoyancy and lines leave neither force nor moment.
+#[test]
+fn calm_buoy_floats_by_archimedes() {
+    let scene = load("calm-buoy.json");
+    let (mooring, outputs) = moored(&scene);
+    for index in 0..6 {
+        hangs_as_a_catenary(&scene, index, &outputs[index]);
+    }
+    let poses: Vec<_> = mooring.parts.iter().flat_map(|part| part.bodies()).collect();
+    let body = mooring.bodies(0.0, &poses, &outputs)[0];
+    let beta = -body.pose.angles.y;
+    let (radius, mass) = (5.5_f64, 150.0e3);
+    let wet = 3.0 - body.pose.position.z / beta.cos();
+    let volume = TAU / 2.0 * radius * radius * wet;
+    let up = 1025.0 * GRAVITY * volume;
+    assert_close("draught", up, mass * GRAVITY - body.force.z, 1e-5);
+    let tan = beta.tan();
+    let turned = moorline::algebra::rotation::of_angles(&body.pose.angles);
+    // The side that leans down is wetter.
+    let centre = turned * Vector3::new(-radius * radius * tan / (4.0 * wet), 0.0, wet / 2.0 + radius * radius * tan * tan / (8.0 * wet) - 3.0);
+    let weight = turned * Vector3::new(0.0, 0.0, -0.8);
+    let left = centre.cross(&(Vector3::z() * up)) - weight.cross(&(Vector3::z() * mass * GRAVITY)) + body.moment;
+    assert!(left.norm() < 1e-2 * body.moment.norm(), "{left:?} N m is left of {:?}", body.moment);
+    assert!((body.pose.position.z - 0.45).abs() < 0.005 && (beta.to_degrees() - 2.0).abs() < 0.02, "{body:?}");
+}
+
+/// Source: catenaries, and the balance of each float: what it displaces less what it weighs, and two lines.
+#[test]
+fn floats_of_a_wave_energy_device_carry_their_lines() {
+    let scene = load("wave-energy-floats.json");
+    let (_, outputs) = moored(&scene);
+    for (index, line) in outputs.iter().enumerate() {
+        hangs_as_a_catenary(&scene, index, line);
+    }
+    for leg in 0..3 {
+        let (upper, lower) = (&outputs[2 * leg], &outputs[2 * leg + 1]);
+        let z = upper.anchor.z;
+        // The float counts as a sphere of its volume.
+        let diameter = (6.0 * 33.5 / (TAU / 2.0)).cbrt();
+        let zeta = (2.0 * z / diameter).clamp(-1.0, 1.0);
+        let wet = 0.25 * (1.0 - zeta) * (1.0 - zeta) * (2.0 + zeta);
+        let net = Vector3::z() * (1025.0 * GRAVITY * 33.5 * wet - 16755.0 * GRAVITY);
+        let left = net + upper.anchor_force + lower.force;
+        assert!(left.norm() < 1e-5 * net.norm().max(lower.tension), "{left:?} N is left at z = {z}");
+        assert_close("tension", upper.tension, 70.7e3, 1e-3);
+    }
 }

@@ -124,9 +124,8 @@ impl Group {
     pub fn stiffness(&self) -> Option<DMatrix<f64>> {
         let mut matrix = BlockTridiagonal::new(self.network.ties());
         let mut condensed = Condensed::new(self.network.nodes(), &self.network.links);
-        let (state, weights) = (&self.moment.state, Weights { u: 1.0, v: 0.0, a: 0.0 });
-        self.network.tangent(&motion(state), &weights, None, &mut matrix);
-        self.network.fixed.iter().for_each(|&(node, component)| matrix.fix(node, component));
+        let state = &self.moment.state;
+        self.stiffness_at(state, &mut matrix);
         condensed.condense(&self.network, &motion(state), &mut matrix).ok()?;
         Some(condensed.stiffness().clone())
     }
@@ -226,17 +225,22 @@ impl Group {
 
     fn assemble(&self, here: &Trial, matrix: &mut BlockTridiagonal<6>, condensed: &mut Condensed) -> Result<(), Error> {
         let at = motion(&here.state);
-        self.network.tangent(&at, &Weights { u: 1.0, v: 0.0, a: 0.0 }, None, matrix);
-        // A heap of slack line has no stiffness of its own: a little, so that there is a factor.
-        for node in self.network.links.ranges.iter().flat_map(|(first, end)| *first..*end) {
-            let size = matrix.diagonal[node].amax().max(1.0e-9);
-            (0..6).for_each(|c| matrix.diagonal[node][(c, c)] += 1.0e-12 * size);
-        }
-        self.network.fixed.iter().for_each(|&(node, component)| matrix.fix(node, component));
+        self.stiffness_at(&here.state, matrix);
         condensed.condense(&self.network, &at, matrix).map_err(|_| {
             let trouble = Trouble::Unbalanced { iterations: 0, residual: here.force, allowed: here.aimed };
             Error::Network(Box::new(Adrift { what: self.names[here.worst].clone(), time: here.state.clock.now, trouble }))
         })
+    }
+
+    /// The static tangent in a state, what is prescribed taken out.
+    fn stiffness_at(&self, state: &State, matrix: &mut BlockTridiagonal<6>) {
+        self.network.tangent(&motion(state), &Weights { u: 1.0, v: 0.0, a: 0.0 }, None, matrix);
+        // A heap of slack line has no stiffness of its own: a little, so that there is a factor.
+        for node in self.network.links.ranges.iter().flat_map(|(first, end)| *first..*end) {
+            let size = matrix.diagonal[node].amax().max(1.0e-9);
+            (0..6).for_each(|c| matrix.diagonal[node][(c, c)] += 1.0e-9 * size);
+        }
+        self.network.fixed.iter().for_each(|&(node, component)| matrix.fix(node, component));
     }
 
     /// Begins anew from a state at rest.
