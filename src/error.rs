@@ -370,7 +370,9 @@ pub enum Trouble {
         allowed: f64,
     },
     /// In balance, but the least disturbance would make it leave.
-    #[error("its equilibrium is not stable, and none beside it was found; ballast it lower, or hold it by lines from several sides")]
+    #[error(
+        "its equilibrium is not stable, and none beside it was found; ballast it lower, or hold it by lines from several sides"
+    )]
     Unstable,
     /// A time step could not be taken.
     #[error(

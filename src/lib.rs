@@ -11,7 +11,9 @@ pub mod cli {
     pub mod check;
     pub mod console;
     pub mod convert;
+    pub mod fit;
     pub mod interrupt;
+    pub mod offsets;
     pub mod pack;
     pub mod progress;
     pub mod run;
@@ -166,6 +168,7 @@ pub mod fmi {
 /// What a run leaves behind: tables and a page to look at.
 pub mod report {
     pub mod cable_files;
+    pub mod offsets;
     pub mod page;
     pub mod page_data;
     pub mod record;

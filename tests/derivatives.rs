@@ -203,7 +203,10 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
 
 fn residual(line: &dyn Line, state: &State) -> Field {
     let mut out = Field::new(line.mesh().nodes());
-    line.residual(&Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds, frames: &[] }, &mut out);
+    line.residual(
+        &Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds, frames: &[] },
+        &mut out,
+    );
     out
 }
 

@@ -258,9 +258,17 @@ fn hangs_as_a_catenary(scene: &Loaded, index: usize, outputs: &Outputs) {
     let of = &scene.scene.line_types[&line.sections[0].line_type];
     let (density, gravity) = (scene.scene.environment.water_density, scene.scene.environment.gravity);
     let piece = [Piece { length: line.length(), weight: of.weight_in_water(density, gravity), ea: of.ea }];
-    let (low, high) = if outputs.fairlead.z < outputs.anchor.z { (outputs.fairlead, outputs.anchor) } else { (outputs.anchor, outputs.fairlead) };
+    let (low, high) = if outputs.fairlead.z < outputs.anchor.z {
+        (outputs.fairlead, outputs.anchor)
+    } else {
+        (outputs.anchor, outputs.fairlead)
+    };
     let (span, rise) = ((high - low).xy().norm(), high.z - low.z);
-    let tensions = if outputs.fairlead.z < outputs.anchor.z { [outputs.anchor_tension, outputs.tension] } else { [outputs.tension, outputs.anchor_tension] };
+    let tensions = if outputs.fairlead.z < outputs.anchor.z {
+        [outputs.anchor_tension, outputs.tension]
+    } else {
+        [outputs.tension, outputs.anchor_tension]
+    };
     let name = &line.name;
     if outputs.grounded_length == 0.0 {
         let exact = Hanging::spanning(&piece, span, rise);
@@ -272,7 +280,9 @@ fn hangs_as_a_catenary(scene: &Loaded, index: usize, outputs: &Outputs) {
     let Piece { length, weight, ea } = piece[0];
     let allowed = 1e-3 + 2.0 * of.diameter / rise;
     // The length that is lifted by a horizontal force carries the rise.
-    let lifted = |h: f64| bisect(0.0, length, |s| h / weight * ((1.0 + (weight * s / h).powi(2)).sqrt() - 1.0) + weight * s * s / (2.0 * ea) - rise);
+    let lifted = |h: f64| {
+        bisect(0.0, length, |s| h / weight * ((1.0 + (weight * s / h).powi(2)).sqrt() - 1.0) + weight * s * s / (2.0 * ea) - rise)
+    };
     let reach = |h: f64| {
         let s = lifted(h);
         (length - s) * (1.0 + h / ea) + h / weight * (weight * s / h).asinh() + h * s / ea
@@ -355,7 +365,8 @@ fn calm_buoy_floats_by_archimedes() {
     let tan = beta.tan();
     let turned = moorline::algebra::rotation::of_angles(&body.pose.angles);
     // The side that leans down is wetter.
-    let centre = turned * Vector3::new(-radius * radius * tan / (4.0 * wet), 0.0, wet / 2.0 + radius * radius * tan * tan / (8.0 * wet) - 3.0);
+    let centre = turned
+        * Vector3::new(-radius * radius * tan / (4.0 * wet), 0.0, wet / 2.0 + radius * radius * tan * tan / (8.0 * wet) - 3.0);
     let weight = turned * Vector3::new(0.0, 0.0, -0.8);
     let left = centre.cross(&(Vector3::z() * up)) - weight.cross(&(Vector3::z() * mass * GRAVITY)) + body.moment;
     assert!(left.norm() < 1e-2 * body.moment.norm(), "{left:?} N m is left of {:?}", body.moment);

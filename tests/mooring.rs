@@ -81,7 +81,12 @@ fn a_line_on_a_driven_body_is_the_line_on_the_path_of_its_fairlead() {
 /// steps of 2 and 4 mm), 1e-6 of the largest of its block.
 #[test]
 fn stiffness_is_the_difference_of_statics() {
-    let sets = ["solver.tolerance=1e-6", "bodies[0].position=[1.5,-2,0.4]", "bodies[0].attitude_deg=[2,-1,4]", "bodies[0].motion.sine=[0,0,0,0,0,0]"];
+    let sets = [
+        "solver.tolerance=1e-6",
+        "bodies[0].position=[1.5,-2,0.4]",
+        "bodies[0].attitude_deg=[2,-1,4]",
+        "bodies[0].motion.sine=[0,0,0,0,0,0]",
+    ];
     let loaded = example("semi-submersible.json", &sets);
     let (mut mooring, _) = settled(&loaded);
     let stiffness = mooring.stiffness(0, 0.0).expect("a stiffness");
@@ -90,7 +95,11 @@ fn stiffness_is_the_difference_of_statics() {
     let (position, angles) = (Vector3::from(body.position), body.attitude());
     let moved = |axis: usize, by: f64| {
         let (mut place, mut turn) = (position, Vector3::zeros());
-        if axis < 3 { place[axis] += by } else { turn[axis - 3] = by }
+        if axis < 3 {
+            place[axis] += by
+        } else {
+            turn[axis - 3] = by
+        }
         let rotation = moorline::algebra::rotation::exp(&turn) * moorline::algebra::rotation::of_angles(&angles);
         // On the meshes of the unmoved mooring: what differs is the place alone.
         let mut outputs = Vec::new();
@@ -112,10 +121,22 @@ fn stiffness_is_the_difference_of_statics() {
         let (one, two) = (difference(h), difference(2.0 * h));
         for block in 0..2 {
             let best = (one[block] * 4.0 - two[block]) / 3.0;
-            let largest = (0..3).map(|row| (0..6).map(|c| if (c < 3) == (axis < 3) { stiffness[3 * block + row][c].abs() } else { 0.0 }).fold(0.0, f64::max)).fold(0.0, f64::max);
+            let largest = (0..3)
+                .map(|row| {
+                    (0..6)
+                        .map(|c| if (c < 3) == (axis < 3) { stiffness[3 * block + row][c].abs() } else { 0.0 })
+                        .fold(0.0, f64::max)
+                })
+                .fold(0.0, f64::max);
             for row in 0..3 {
                 let error = (best[row] - stiffness[3 * block + row][axis]).abs() / largest;
-                assert!(error < 2e-6, "row {}, column {axis}: {} by formula, {} by differences ({error:.1e})", 3 * block + row, stiffness[3 * block + row][axis], best[row]);
+                assert!(
+                    error < 2e-6,
+                    "row {}, column {axis}: {} by formula, {} by differences ({error:.1e})",
+                    3 * block + row,
+                    stiffness[3 * block + row][axis],
+                    best[row]
+                );
             }
         }
     }
@@ -162,7 +183,8 @@ fn two_free_bodies_and_a_line_keep_their_momentum() {
             let at = body.place(&Vector3::new(0.5, -0.3, 0.2));
             let inertia = Matrix3::from_diagonal(&(Vector3::new(2.0, 3.0, 4.0) * mass));
             momentum += at.velocity * mass;
-            turning += at.position.cross(&(at.velocity * mass)) + body.rotation * inertia * body.rotation.transpose() * body.omega;
+            turning +=
+                at.position.cross(&(at.velocity * mass)) + body.rotation * inertia * body.rotation.transpose() * body.omega;
         }
         (momentum, turning)
     };
@@ -187,7 +209,8 @@ fn a_vessel_inside_moves_as_one_outside() {
     let (mass, inertia) = (2.0e7, [8.0e8, 3.0e10, 3.05e10]);
     let damping = [2.0e5, 3.0e5, 2.0e6, 1.0e8, 2.0e9, 1.0e9];
     let hydrostatic = [0.0, 0.0, 3.0e7, 9.0e8, 1.5e10, 0.0];
-    let diagonal = |d: [f64; 6]| -> Vec<Vec<f64>> { (0..6).map(|r| (0..6).map(|c| if r == c { d[r] } else { 0.0 }).collect()).collect() };
+    let diagonal =
+        |d: [f64; 6]| -> Vec<Vec<f64>> { (0..6).map(|r| (0..6).map(|c| if r == c { d[r] } else { 0.0 }).collect()).collect() };
     let scene = |force: [f64; 3], moment: [f64; 3]| {
         let line = |name: &str, x: f64, y: f64, far: f64, wide: f64| {
             json!({"name": name, "fairlead": {"body": "ship", "at": [x, y, -5.0]}, "anchor": [far, wide, -100.0],
@@ -212,7 +235,8 @@ fn a_vessel_inside_moves_as_one_outside() {
 
     // Outside: explicit midpoint steps for the ship, lines on polynomials from step to step.
     let mut lines: Vec<Simulation> = Vec::new();
-    let at: Vec<Vector3<f64>> = [(90.0, 10.0), (90.0, -10.0), (-90.0, 10.0), (-90.0, -10.0)].map(|(x, y)| Vector3::new(x, y, -5.0)).to_vec();
+    let at: Vec<Vector3<f64>> =
+        [(90.0, 10.0), (90.0, -10.0), (-90.0, 10.0), (-90.0, -10.0)].map(|(x, y)| Vector3::new(x, y, -5.0)).to_vec();
     for index in 0..4 {
         let mut line = Simulation::new(&loaded.scene, index).unwrap_or_else(|error| panic!("{error}"));
         line.settle(start.place(&at[index]).position, 0.0).unwrap_or_else(|error| panic!("{error}"));
@@ -222,8 +246,14 @@ fn a_vessel_inside_moves_as_one_outside() {
     let of_body = Matrix3::from_diagonal(&Vector3::from(inertia));
     let outputs = |lines: &[Simulation]| -> Vec<Outputs> { lines.iter().map(Simulation::outputs).collect() };
     let ends_of: Vec<(usize, bool)> = (0..4).map(|index| (index, false)).collect();
-    let rates = |x: &Vector3<f64>, r: &Matrix3<f64>, v: &Vector3<f64>, w: &Vector3<f64>, (force, moment): (Vector3<f64>, Vector3<f64>)| {
-        let split = |d: [f64; 6]| (Matrix3::from_diagonal(&Vector3::new(d[0], d[1], d[2])), Matrix3::from_diagonal(&Vector3::new(d[3], d[4], d[5])));
+    let rates = |x: &Vector3<f64>,
+                 r: &Matrix3<f64>,
+                 v: &Vector3<f64>,
+                 w: &Vector3<f64>,
+                 (force, moment): (Vector3<f64>, Vector3<f64>)| {
+        let split = |d: [f64; 6]| {
+            (Matrix3::from_diagonal(&Vector3::new(d[0], d[1], d[2])), Matrix3::from_diagonal(&Vector3::new(d[3], d[4], d[5])))
+        };
         let ((d1, d2), (k1, k2)) = (split(damping), split(hydrostatic));
         let q = moorline::rod::rigid::rotation_vector(r);
         let force = force - r * d1 * r.transpose() * v - k1 * x;

@@ -101,10 +101,7 @@ fn three_lines_at_a_free_point_are_three_catenaries() {
                 let up = ver + weight * length;
                 let asinh = (up / hor).asinh() - (ver / hor).asinh();
                 let hyp = (1.0 + (up / hor).powi(2)).sqrt() - (1.0 + (ver / hor).powi(2)).sqrt();
-                [
-                    hor * length / ea + hor / weight * asinh,
-                    length / ea * (ver + 0.5 * weight * length) + hor / weight * hyp,
-                ]
+                [hor * length / ea + hor / weight * asinh, length / ea * (ver + 0.5 * weight * length) + hor / weight * hyp]
             };
             let [x, z] = reach(hor, ver);
             let d = 1e-3;
@@ -249,6 +246,9 @@ fn a_free_top_keeps_energy_and_momentum_to_the_order_of_the_scheme() {
         let (coarse, fine) = (drift(0.05, scheme), drift(0.025, scheme));
         let orders = [(coarse[0] / fine[0]).log2(), (coarse[1] / fine[1]).log2()];
         println!("{scheme}: {coarse:?} {fine:?} orders {orders:?}");
-        assert!(orders.iter().all(|found| *found > order - 0.3) && fine.iter().all(|drift| *drift < 1e-2), "{scheme}: {orders:?}");
+        assert!(
+            orders.iter().all(|found| *found > order - 0.3) && fine.iter().all(|drift| *drift < 1e-2),
+            "{scheme}: {orders:?}"
+        );
     }
 }

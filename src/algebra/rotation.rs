@@ -60,7 +60,8 @@ pub fn cross(x: &Vector3<f64>) -> Matrix3<f64> {
 /// exp(ϑ).
 pub fn exp(theta: &Vector3<f64>) -> Matrix3<f64> {
     let t = theta.norm();
-    let (first, second) = if t < 1.0e-4 { (1.0 - t * t / 6.0, 0.5 - t * t / 24.0) } else { (t.sin() / t, (1.0 - t.cos()) / (t * t)) };
+    let (first, second) =
+        if t < 1.0e-4 { (1.0 - t * t / 6.0, 0.5 - t * t / 24.0) } else { (t.sin() / t, (1.0 - t.cos()) / (t * t)) };
     let k = cross(theta);
     Matrix3::identity() + k * first + k * k * second
 }

@@ -89,7 +89,11 @@ mod tests {
             let times: Vec<f64> = (0..=count).map(|k| 6.0 * k as f64 / count as f64).collect();
             let values: Vec<f64> = times.iter().map(|t| t.sin()).collect();
             let m = curvatures(&times, &values);
-            (0..count).map(|i| (at(&times, &values, &m, i, times[i] + 3.0 / count as f64)[0] - (times[i] + 3.0 / count as f64).sin()).abs()).fold(0.0, f64::max)
+            (0..count)
+                .map(|i| {
+                    (at(&times, &values, &m, i, times[i] + 3.0 / count as f64)[0] - (times[i] + 3.0 / count as f64).sin()).abs()
+                })
+                .fold(0.0, f64::max)
         };
         let order = (error(20) / error(40)).log2();
         assert!(order > 3.5, "order {order}");

@@ -1,6 +1,6 @@
 //! What was typed, and which command answers it. One file per command stands beside this one.
 
-use crate::cli::{check, console, convert, pack, run, schema, statics};
+use crate::cli::{check, console, convert, fit, pack, run, schema, statics};
 use crate::error::Error;
 use crate::scene::read::{self, Loaded};
 use clap::{Args, Parser, Subcommand};
@@ -29,6 +29,8 @@ enum Command {
     Run(RunArguments),
     /// Static equilibrium: end forces, tensions, touchdown, node table
     Statics(StaticsArguments),
+    /// Find the value of the scene that gives a wanted static result, such as a pretension, and write the scene
+    Fit(FitArguments),
     /// Validate a scene and say which physics is on, what is skipped and why, mesh and cost
     Check(SceneArguments),
     /// Print the JSON Schema of the scene
@@ -72,6 +74,34 @@ pub struct StaticsArguments {
     /// Print JSON instead of tables
     #[arg(long)]
     pub json: bool,
+    /// Hold a body aside, such as vessel.x=-20:20:1 (x, y, z in m; roll, pitch, yaw in deg), and write force, moment and tensions over the offset
+    #[arg(long, value_name = "BODY.WAY=FROM:TO:STEP", conflicts_with = "json")]
+    pub offsets: Option<String>,
+    /// Directory of offsets.csv and offsets.html; made where it does not exist
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub output: PathBuf,
+}
+
+/// `moorline fit`.
+#[derive(Debug, Args)]
+pub struct FitArguments {
+    /// Scene file
+    pub scene: PathBuf,
+    /// Number of the scene to change, such as lines[0].sections[0].length
+    #[arg(long, value_name = "PLACE")]
+    pub change: String,
+    /// Static result that is wanted, such as bow.tension=1.2e6
+    #[arg(long, value_name = "NAME.RESULT=VALUE", allow_hyphen_values = true)]
+    pub until: String,
+    /// Where to look; without it, from a quarter to four times the present value
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
+    pub range: Option<String>,
+    /// The scene to write; without it, SCENE.fitted.json
+    #[arg(short, long, value_name = "FILE.json")]
+    pub output: Option<PathBuf>,
+    /// Value to put into the scene before it is checked; repeatable
+    #[arg(long = "set", value_name = "PLACE=VALUE")]
+    pub sets: Vec<String>,
 }
 
 /// A scene and what to change in it.
@@ -139,6 +169,7 @@ pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
         None => run::run(&RunArguments { scene: None, options: arguments.run }),
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Statics(arguments)) => statics::statics(&arguments),
+        Some(Command::Fit(arguments)) => fit::fit(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Schema) => schema::schema(),
         Some(Command::Pack(arguments)) => pack::pack(&arguments),

@@ -100,8 +100,7 @@ fn drive(
         progress.show(row, now.time, &now.outputs);
         Ok(())
     };
-    let outcome =
-        fleet::through_rows(moving, 1..schedule.rows(), |part, row| part.go(row, &wanted, &interrupt), gather);
+    let outcome = fleet::through_rows(moving, 1..schedule.rows(), |part, row| part.go(row, &wanted, &interrupt), gather);
     parts.account(record);
     // The last state that all lines share, wherever the run ended.
     if record.snapshot_times.last() < Some(&now.time) {

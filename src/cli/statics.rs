@@ -2,12 +2,13 @@
 
 use crate::cli::arguments::{StaticsArguments, Stop};
 use crate::cli::console::{self, on_terminal};
+use crate::cli::offsets;
 use crate::error::Error;
 use crate::report::record::touchdown;
 use crate::report::units::{ForceUnit, count};
+use crate::scene::bodies::Matrix;
 use crate::scene::read::Loaded;
 use crate::scene::types::{Scene, Triple};
-use crate::scene::bodies::Matrix;
 use crate::solve::mooring::Mooring;
 use crate::solve::simulation::{NodeOutput, Outputs};
 use nalgebra::Vector3;
@@ -77,6 +78,9 @@ struct Node {
 pub fn statics(arguments: &StaticsArguments) -> Result<(), Stop> {
     let loaded = arguments.scene.load()?;
     loaded.warnings.iter().for_each(|warning| console::warning(warning));
+    if let Some(asked) = &arguments.offsets {
+        return Ok(offsets::offsets(&loaded, asked, &arguments.output)?);
+    }
     let (equilibrium, failure) = solve(&loaded)?;
     let text = if arguments.json {
         // Numbers and strings only: there is nothing in them that JSON cannot hold.
@@ -124,7 +128,10 @@ fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
     let outputs: Vec<Outputs> = lines.iter().map(|(_, outputs, _)| *outputs).collect();
     equilibrium.lines = lines.into_iter().map(|(.., line)| line).collect();
     points.sort_by_key(|(index, _)| *index);
-    let point = |(index, place): (usize, Vector3<f64>)| PointEquilibrium { name: scene.points[index].name.clone(), position: place.into() };
+    let point = |(index, place): (usize, Vector3<f64>)| PointEquilibrium {
+        name: scene.points[index].name.clone(),
+        position: place.into(),
+    };
     equilibrium.points = points.into_iter().map(point).collect();
     let bodies = mooring.bodies(start, &poses, &outputs);
     for (index, body) in bodies.iter().enumerate() {

@@ -108,14 +108,26 @@ pub fn of_body(free: bool) -> Vec<Row> {
             let name = if part == Part::Attitude { ANGLES[axis] } else { AXES[axis] };
             let (limits, kind) = match part {
                 Part::Position => ([-1.0e8, 1.0e8], "declaredType=\"Position\""),
-                Part::Attitude if axis == 1 => ([-STEEPEST, STEEPEST], "declaredType=\"Angle\" min=\"-1.55334303427495\" max=\"1.55334303427495\""),
+                Part::Attitude if axis == 1 => {
+                    ([-STEEPEST, STEEPEST], "declaredType=\"Angle\" min=\"-1.55334303427495\" max=\"1.55334303427495\"")
+                }
                 Part::Attitude => ([-1.0e6, 1.0e6], "declaredType=\"Angle\" min=\"-1000000\" max=\"1000000\""),
                 Part::Velocity => ([-1.0e4, 1.0e4], "declaredType=\"Velocity\""),
-                Part::AngularVelocity => ([-1.0e3, 1.0e3], "quantity=\"AngularVelocity\" unit=\"rad/s\" min=\"-1000\" max=\"1000\""),
+                Part::AngularVelocity => {
+                    ([-1.0e3, 1.0e3], "quantity=\"AngularVelocity\" unit=\"rad/s\" min=\"-1000\" max=\"1000\"")
+                }
             };
-            let role = if free { Role::Output(BodyOutput::Motion(part, axis)) } else { Role::Input(BodyInput::Motion(part, axis)) };
+            let role =
+                if free { Role::Output(BodyOutput::Motion(part, axis)) } else { Role::Input(BodyInput::Motion(part, axis)) };
             let description = format!("{words}, {name}");
-            rows.push(Row { stem: format!("{stem}.{name}"), offset: (3 * number + axis) as u32, role, limits, kind, description });
+            rows.push(Row {
+                stem: format!("{stem}.{name}"),
+                offset: (3 * number + axis) as u32,
+                role,
+                limits,
+                kind,
+                description,
+            });
         }
     }
     let row = |stem: String, offset: usize, role, kind, description: String| Row {
@@ -130,20 +142,36 @@ pub fn of_body(free: bool) -> Vec<Row> {
     if free {
         for (number, (stem, kind, words)) in [
             ("applied_force", "declaredType=\"Force\" min=\"-1e15\" max=\"1e15\"", "Force applied to the reference point"),
-            ("applied_moment", "quantity=\"Torque\" unit=\"N.m\" displayUnit=\"kN.m\" min=\"-1e15\" max=\"1e15\"", "Moment applied"),
+            (
+                "applied_moment",
+                "quantity=\"Torque\" unit=\"N.m\" displayUnit=\"kN.m\" min=\"-1e15\" max=\"1e15\"",
+                "Moment applied",
+            ),
         ]
         .into_iter()
         .enumerate()
         {
             for axis in 0..3 {
                 let role = Role::Input(BodyInput::Applied(number, axis));
-                rows.push(row(format!("{stem}.{}", AXES[axis]), 30 + 3 * number + axis, role, kind, format!("{words}, {}", AXES[axis])));
+                rows.push(row(
+                    format!("{stem}.{}", AXES[axis]),
+                    30 + 3 * number + axis,
+                    role,
+                    kind,
+                    format!("{words}, {}", AXES[axis]),
+                ));
             }
         }
     } else {
         for axis in 0..3 {
             let words = format!("Force of the lines on the body, {}", AXES[axis]);
-            rows.push(row(format!("force.{}", AXES[axis]), 20 + axis, Role::Output(BodyOutput::Force(axis)), "declaredType=\"Force\"", words));
+            rows.push(row(
+                format!("force.{}", AXES[axis]),
+                20 + axis,
+                Role::Output(BodyOutput::Force(axis)),
+                "declaredType=\"Force\"",
+                words,
+            ));
         }
         for axis in 0..3 {
             let words = format!("Moment of the lines about the reference point, {}", AXES[axis]);
@@ -182,10 +210,12 @@ pub fn of_body(free: bool) -> Vec<Row> {
 /// The variables of a free point.
 pub fn of_point() -> Vec<Row> {
     let mut rows = Vec::new();
-    for (number, (stem, kind, words)) in
-        [("position", "declaredType=\"Position\"", "Position of the point"), ("velocity", "declaredType=\"Velocity\"", "Velocity of the point")]
-            .into_iter()
-            .enumerate()
+    for (number, (stem, kind, words)) in [
+        ("position", "declaredType=\"Position\"", "Position of the point"),
+        ("velocity", "declaredType=\"Velocity\"", "Velocity of the point"),
+    ]
+    .into_iter()
+    .enumerate()
     {
         for axis in 0..3 {
             rows.push(Row {

@@ -3,8 +3,8 @@
 //! A refused call changes nothing. A step that fails leaves the line as it was before; `set_state` and `reset` go on from there.
 
 use crate::error::Error;
-use crate::fmi::experiment::Experiment;
 use crate::fmi::body_variables::{BodyInput, Part, Said, number_of};
+use crate::fmi::experiment::Experiment;
 use crate::fmi::filter::Filter;
 use crate::fmi::input_path::InputPath;
 use crate::fmi::inputs::Inputs;
@@ -349,7 +349,8 @@ impl Instance {
     /// Makes the lines, if parameters or positions changed since, and puts them in equilibrium at rest at the start time.
     fn settle(&mut self) -> Result<(), Refusal> {
         let placed = |vessel: &Vessel| vessel.origin == [vessel.said.values[0], vessel.said.values[1]];
-        let unmoved = self.moment.ends.iter().all(|end| end.origin == end.inputs.values[0]) && self.moment.vessels.iter().all(placed);
+        let unmoved =
+            self.moment.ends.iter().all(|end| end.origin == end.inputs.values[0]) && self.moment.vessels.iter().all(placed);
         if self.moment.settled && unmoved && self.built.is_some() {
             return Ok(());
         }

@@ -2,9 +2,9 @@
 //! Nothing is compiled. Beside the FMU goes the description of its port for the Open Simulation Platform.
 
 use crate::error::Error;
+use crate::fmi::body_variables::{self, Row};
 use crate::fmi::resource::{SCENE_FILE, guid};
 use crate::fmi::variables::{Interface, Kind, MODEL_DESCRIPTION, MOST_LINES, Meaning, Variable};
-use crate::fmi::body_variables::{self, Row};
 use crate::scene::bodies::{BodyMotion, Mount, PointMotion};
 use crate::scene::types::{Motion, Scene};
 use crate::solve::partition;
@@ -355,7 +355,9 @@ fn model_structure(interface: &Interface) -> String {
         .bodies
         .iter()
         .enumerate()
-        .map(|(index, body)| of_things(&|on| matches!(on, Some(Mount::Body { body: name, .. }) if *name == body.name), Some(index)))
+        .map(|(index, body)| {
+            of_things(&|on| matches!(on, Some(Mount::Body { body: name, .. }) if *name == body.name), Some(index))
+        })
         .collect();
     let of_points: Vec<String> = scene
         .points

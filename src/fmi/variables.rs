@@ -426,7 +426,12 @@ impl Interface {
             blocks.push((body_variables::block_of_body(scene, index), index, identifier(&body.name), rows));
         }
         for (index, point) in scene.points.iter().enumerate().filter(|(_, point)| point.is_free()) {
-            blocks.push((body_variables::block_of_point(scene, index), index, identifier(&point.name), body_variables::of_point()));
+            blocks.push((
+                body_variables::block_of_point(scene, index),
+                index,
+                identifier(&point.name),
+                body_variables::of_point(),
+            ));
         }
         blocks.sort_by_key(|(first, ..)| *first);
         for (first, index, name, rows) in blocks {

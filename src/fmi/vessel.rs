@@ -118,7 +118,8 @@ impl Vessel {
     /// Becomes another; in the long run it allocates nothing.
     pub fn copy_from(&mut self, other: &Vessel) {
         let Vessel { origin, said, paths, filters, angles, told, reached } = other;
-        (self.origin, self.said, self.filters, self.angles, self.told, self.reached) = (*origin, *said, *filters, *angles, *told, *reached);
+        (self.origin, self.said, self.filters, self.angles, self.told, self.reached) =
+            (*origin, *said, *filters, *angles, *told, *reached);
         self.paths.iter_mut().zip(paths).for_each(|(path, other)| path.copy_from(other));
     }
 
@@ -156,7 +157,9 @@ impl Vessel {
         step: f64,
     ) -> Result<Voyage, Impossible> {
         let (given, angles) = self.understood(&self.said, conventions, arm);
-        let away = |part: usize| (0..3).map(|axis| (given[part].values[0][axis] - self.paths[part].position[axis]).powi(2)).sum::<f64>().sqrt();
+        let away = |part: usize| {
+            (0..3).map(|axis| (given[part].values[0][axis] - self.paths[part].position[axis]).powi(2)).sum::<f64>().sqrt()
+        };
         if !(away(0) <= FARTHEST) {
             return Err(Impossible::Jump(away(0)));
         }
@@ -194,7 +197,14 @@ impl Vessel {
     }
 
     /// Change of the path per change of position, attitude, velocity and angular velocity, as the master says them.
-    pub fn variation(&self, voyage: &Voyage, conventions: &Conventions, arm: f64, cutoff: f64, direction: &[[f64; 3]; 4]) -> [Segment; 2] {
+    pub fn variation(
+        &self,
+        voyage: &Voyage,
+        conventions: &Conventions,
+        arm: f64,
+        cutoff: f64,
+        direction: &[[f64; 3]; 4],
+    ) -> [Segment; 2] {
         let size = direction.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs())).max(f64::MIN_POSITIVE);
         let share = 1.0e-4 / size;
         let moved = |by: f64| {

@@ -17,7 +17,7 @@ const JS: &str = concat!(
 );
 /// uPlot 1.6.32 (npm `uplot`, dist/uPlot.iife.min.js), unchanged: small, fast with 10⁵ points, and it needs nothing else.
 const UPLOT_JS: &str = include_str!("page/uplot.js");
-const UPLOT_CSS: &str = include_str!("page/uplot.css");
+pub(super) const UPLOT_CSS: &str = include_str!("page/uplot.css");
 const UPLOT_LICENCE: &str = include_str!("page/uplot.LICENSE");
 
 /// The page of a run, finished or not.
@@ -42,13 +42,18 @@ pub fn html(record: &Record) -> String {
         "uplot_css" => UPLOT_CSS.to_string(),
         "uplot_licence" => UPLOT_LICENCE.to_string(),
         // Its first line is a comment with an address; the licence stands in the style sheet.
-        "uplot_js" => UPLOT_JS.split_once("*/").map_or(UPLOT_JS, |(_, code)| code.trim()).to_string(),
+        "uplot_js" => uplot(),
         _ => String::new(),
     })
 }
 
+/// The plot library, as it may stand in a page.
+pub(super) fn uplot() -> String {
+    UPLOT_JS.split_once("*/").map_or(UPLOT_JS, |(_, code)| code.trim()).to_string()
+}
+
 /// Replaces each `{{name}}` of a template once; what is put in is not looked at again.
-fn fill(template: &str, value: impl Fn(&str) -> String) -> String {
+pub(super) fn fill(template: &str, value: impl Fn(&str) -> String) -> String {
     let mut pieces = template.split("{{");
     let mut page = pieces.next().unwrap_or_default().to_string();
     for piece in pieces {
@@ -64,7 +69,7 @@ fn fill(template: &str, value: impl Fn(&str) -> String) -> String {
 }
 
 /// Text as it may stand between tags and in quoted attributes.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

@@ -152,13 +152,19 @@ impl Cylinder {
         let level = around.elevation(&clock, &middle);
         let slope = if around.sea.as_ref().is_some_and(|_| around.surface) {
             let d = radius.max(0.1);
-            let rise = |by: Vector3<f64>| (around.elevation(&clock, &(middle + by)) - around.elevation(&clock, &(middle - by))) / (2.0 * d);
+            let rise = |by: Vector3<f64>| {
+                (around.elevation(&clock, &(middle + by)) - around.elevation(&clock, &(middle - by))) / (2.0 * d)
+            };
             [rise(Vector3::x() * d), rise(Vector3::y() * d)]
         } else {
             [0.0; 2]
         };
         let height = |at: &Vector3<f64>| {
-            if around.surface { at.z - level - slope[0] * (at.x - middle.x) - slope[1] * (at.y - middle.y) } else { f64::NEG_INFINITY }
+            if around.surface {
+                at.z - level - slope[0] * (at.x - middle.x) - slope[1] * (at.y - middle.y)
+            } else {
+                f64::NEG_INFINITY
+            }
         };
         let steepest = radius * (1.0 - axis.z * axis.z).max(0.0).sqrt();
         let ds = length / SECTIONS as f64;
@@ -184,7 +190,8 @@ impl Cylinder {
             let (qn, an) = (q - axis * qt, a - axis * at);
             let [cn, ct, _] = self.drag;
             let [can, cat, _] = self.added_mass;
-            let drag = qn * (0.5 * rho * self.diameter * cn * qn.norm()) + axis * (0.5 * rho * PI * self.diameter * ct * qt.abs() * qt);
+            let drag =
+                qn * (0.5 * rho * self.diameter * cn * qn.norm()) + axis * (0.5 * rho * PI * self.diameter * ct * qt.abs() * qt);
             let inertia = swell - an * can - axis * (cat * at);
             load.add((drag + inertia * (rho * area)) * (wet * ds), &arm);
         };
@@ -254,7 +261,13 @@ mod tests {
     }
 
     fn spar() -> Cylinder {
-        Cylinder { from: Vector3::new(0.0, 0.0, -20.0), to: Vector3::new(0.0, 0.0, 5.0), diameter: 6.0, drag: [0.0; 3], added_mass: [0.0; 3] }
+        Cylinder {
+            from: Vector3::new(0.0, 0.0, -20.0),
+            to: Vector3::new(0.0, 0.0, 5.0),
+            diameter: 6.0,
+            drag: [0.0; 3],
+            added_mass: [0.0; 3],
+        }
     }
 
     /// Draught, and the righting moment of a heeled cylinder whose mantle the surface cuts: volume πr²L with L the wet length of the axis, its
@@ -283,7 +296,8 @@ mod tests {
     #[test]
     fn a_lying_cylinder_floats_half_under() {
         let lying = Cylinder { from: Vector3::x() * -5.0, to: Vector3::x() * 5.0, ..spar() };
-        let force = |z: f64| lying.load(&still(), Clock::at_rest(0.0), &at_rest(Vector3::z() * z, Matrix3::identity()), true).force.z;
+        let force =
+            |z: f64| lying.load(&still(), Clock::at_rest(0.0), &at_rest(Vector3::z() * z, Matrix3::identity()), true).force.z;
         let whole = 1025.0 * 9.81 * PI * 90.0;
         assert!((force(0.0) / whole - 0.5).abs() < 0.02 && (force(-4.0) / whole - 1.0).abs() < 1e-12 && force(4.0) == 0.0);
     }

@@ -175,7 +175,8 @@ impl Mesh {
             }
             let (first, section) = (all.elements.len(), all.sections.len());
             starts.push(first);
-            let moved = |element: &Element| Element { start: all.length + element.start, section: section + element.section, ..*element };
+            let moved =
+                |element: &Element| Element { start: all.length + element.start, section: section + element.section, ..*element };
             let elements: Vec<Element> = mesh.elements.iter().map(moved).collect();
             all.elements.extend(elements);
             all.points.extend(mesh.points.iter().map(|point| first + point));

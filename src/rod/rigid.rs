@@ -140,7 +140,8 @@ impl Rigid {
 
     /// What acts on the body besides lines, at a motion.
     pub fn acting(&self, clock: Clock, body: &BodyState) -> Load {
-        let mut load = Load { force: self.constant.force + self.applied.force, moment: self.constant.moment + self.applied.moment };
+        let mut load =
+            Load { force: self.constant.force + self.applied.force, moment: self.constant.moment + self.applied.moment };
         let g = self.around.gravity;
         let hydrostatic = self.stiffness.is_none();
         if hydrostatic {
@@ -158,7 +159,8 @@ impl Rigid {
             let turn = rotation_vector(&(body.rotation * self.pose.1.transpose()));
             add_six(&mut load, &(stiffness * six(&(body.position - self.pose.0), &turn)), None, -1.0);
         }
-        let to_body = |force: &Vector3<f64>, moment: &Vector3<f64>| six(&body.rotation.tr_mul(force), &body.rotation.tr_mul(moment));
+        let to_body =
+            |force: &Vector3<f64>, moment: &Vector3<f64>| six(&body.rotation.tr_mul(force), &body.rotation.tr_mul(moment));
         if let Some(added) = &self.added_mass {
             add_six(&mut load, &(added * to_body(&body.acceleration, &body.alpha)), Some(&body.rotation), -1.0);
         }

@@ -76,15 +76,27 @@ pub fn parse(text: &str, file: &str) -> Result<PoseTable, Error> {
             }
         }
         if !(row[5].abs() <= STEEPEST) {
-            return refuse(number, format!("pitch = {} deg", row[5]), "it must lie within ±89 deg, where roll and yaw are defined");
+            return refuse(
+                number,
+                format!("pitch = {} deg", row[5]),
+                "it must lie within ±89 deg, where roll and yaw are defined",
+            );
         }
         if let Some(before) = times.last() {
             if !(row[0] > *before) {
-                return refuse(number, format!("t = {}", row[0]), &format!("times must rise, and the row before has t = {before}"));
+                return refuse(
+                    number,
+                    format!("t = {}", row[0]),
+                    &format!("times must rise, and the row before has t = {before}"),
+                );
             }
             let moved = (0..3).map(|axis| (row[axis + 1] - values[axis][times.len() - 1]).powi(2)).sum::<f64>().sqrt();
             if !(moved / (row[0] - before) <= FASTEST) {
-                return refuse(number, format!("a move of {moved:.3} m"), "a body moves at most 100 m/s; is a unit or a sign wrong?");
+                return refuse(
+                    number,
+                    format!("a move of {moved:.3} m"),
+                    "a body moves at most 100 m/s; is a unit or a sign wrong?",
+                );
             }
         }
         for axis in 0..6 {
@@ -115,7 +127,8 @@ mod tests {
 
     #[test]
     fn rows_are_read_and_angles_unwound() {
-        let table = parse("t,x,y,z,roll,pitch,yaw\n0,0,0,0,0,0,170\n1,1,0,0,0,0,-170 # on\n2,2,0,0,0,0,-150\n", "a.csv").expect("a table");
+        let table = parse("t,x,y,z,roll,pitch,yaw\n0,0,0,0,0,0,170\n1,1,0,0,0,0,-170 # on\n2,2,0,0,0,0,-150\n", "a.csv")
+            .expect("a table");
         assert_eq!(table.times, [0.0, 1.0, 2.0]);
         assert!((table.values[5][2].to_degrees() - 210.0).abs() < 1e-9);
     }

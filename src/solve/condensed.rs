@@ -66,9 +66,11 @@ impl Condensed {
             0.5 * (self.condensed[(row, column)] + self.condensed[(column, row)]) * scales[row] * scales[column]
         });
         let eigen = SymmetricEigen::new(scaled);
-        let (index, value) = eigen.eigenvalues.iter().enumerate().fold((0, f64::INFINITY), |least, (index, value)| {
-            if *value < least.1 { (index, *value) } else { least }
-        });
+        let (index, value) = eigen
+            .eigenvalues
+            .iter()
+            .enumerate()
+            .fold((0, f64::INFINITY), |least, (index, value)| if *value < least.1 { (index, *value) } else { least });
         let direction = eigen.eigenvectors.column(index.min(scales.len() - 1)).component_mul(scales);
         (value, direction)
     }
@@ -85,14 +87,24 @@ impl Condensed {
     }
 
     /// Factors the matrix of a motion, of which prescribed unknowns have been taken out.
-    pub fn factor(&mut self, system: &dyn System, at: &Motion, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
+    pub fn factor(
+        &mut self,
+        system: &dyn System,
+        at: &Motion,
+        matrix: &mut BlockTridiagonal<COMPONENTS>,
+    ) -> Result<(), Singular> {
         self.condense(system, at, matrix)?;
         let fine = self.stiffen(&DVector::zeros(self.condensed.nrows()));
         if fine { Ok(()) } else { Err(Singular { index: self.links.masters.first().copied().unwrap_or(0) }) }
     }
 
     /// Makes S; `stiffen` must follow before a solution.
-    pub fn condense(&mut self, system: &dyn System, at: &Motion, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
+    pub fn condense(
+        &mut self,
+        system: &dyn System,
+        at: &Motion,
+        matrix: &mut BlockTridiagonal<COMPONENTS>,
+    ) -> Result<(), Singular> {
         system.levers(at, &mut self.levers);
         self.condensed.fill(0.0);
         for (number, &node) in self.links.masters.iter().enumerate() {

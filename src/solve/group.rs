@@ -124,14 +124,18 @@ impl Group {
             links.ranges.push((*start, last + 1));
             supports.fixed.extend(own.fixed.iter().map(|(node, component)| (start + node, *component)));
             supports.loads.extend(own.loads.iter().map(|(node, force)| (start + node, *force)));
-            supports.bodies.extend(own.bodies.iter().map(|body| crate::rod::body::Body { node: start + body.node, ..body.clone() }));
+            supports
+                .bodies
+                .extend(own.bodies.iter().map(|body| crate::rod::body::Body { node: start + body.node, ..body.clone() }));
             supports.holds.extend(own.holds.iter().map(|hold| crate::rod::hold::Hold {
                 first: start + hold.first,
                 node: start + hold.node,
                 ..hold.clone()
             }));
             let mut slot = 0;
-            for (node, on, path) in [(*start, &line.anchor_on, &ends[local].anchor), (last, &line.fairlead_on, &ends[local].fairlead)] {
+            for (node, on, path) in
+                [(*start, &line.anchor_on, &ends[local].anchor), (last, &line.fairlead_on, &ends[local].fairlead)]
+            {
                 match on.as_ref().and_then(|on| Some((on, number_of(on)?))) {
                     Some((on, master)) => {
                         supports.fixed.retain(|(fixed, _)| *fixed != node);
@@ -165,7 +169,8 @@ impl Group {
             pulls.push((node, point.force.into()));
         }
         let surroundings = Surroundings::of(scene, &mesh);
-        let crossing = simulations.iter().map(|simulation| simulation.demands().finest_step).fold(scene.solver.max_step, f64::min);
+        let crossing =
+            simulations.iter().map(|simulation| simulation.demands().finest_step).fold(scene.solver.max_step, f64::min);
         let shortest = simulations.iter().map(|simulation| simulation.line().mesh().length).fold(f64::INFINITY, f64::min);
         let reach = bodies.iter().map(Rigid::reach).fold(0.0, f64::max);
         let length = if shortest.is_finite() { shortest } else { reach.max(1.0) };
@@ -627,7 +632,8 @@ fn surround(scene: &Scene) -> Surround {
     let environment = &scene.environment;
     let (waves, current) = (Waves::of(environment), Current::new(&environment.current));
     let flows = waves.is_some() || !current.is_still();
-    let sea = flows.then(|| Sea { waves: waves.unwrap_or_else(|| Waves::new(&[], environment.gravity, environment.depth, 0.0)), current });
+    let sea = flows
+        .then(|| Sea { waves: waves.unwrap_or_else(|| Waves::new(&[], environment.gravity, environment.depth, 0.0)), current });
     Surround {
         sea,
         surface: environment.surface == Surface::Pierced,

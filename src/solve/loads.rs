@@ -42,7 +42,11 @@ pub struct BodyOutputs {
 pub fn hanging(scene: &Scene, body: usize) -> Vec<(usize, bool)> {
     let name = scene.bodies.get(body).map(|body| body.name.as_str());
     let on = |mount: &Option<Mount>| matches!(mount, Some(Mount::Body { body, .. }) if Some(body.as_str()) == name);
-    let ends = scene.lines.iter().enumerate().flat_map(|(index, line)| [(index, false, &line.fairlead_on), (index, true, &line.anchor_on)]);
+    let ends = scene
+        .lines
+        .iter()
+        .enumerate()
+        .flat_map(|(index, line)| [(index, false, &line.fairlead_on), (index, true, &line.anchor_on)]);
     ends.filter(|(.., mount)| on(mount)).map(|(index, anchor, _)| (index, anchor)).collect()
 }
 

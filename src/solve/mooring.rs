@@ -6,8 +6,8 @@ use crate::scene::bodies::Matrix;
 use crate::scene::read::Loaded;
 use crate::scene::types::Scene;
 use crate::solve::fleet;
-use crate::solve::newton::Newton;
 use crate::solve::loads::{self, BodyOutputs, Pose};
+use crate::solve::newton::Newton;
 use crate::solve::part::Part;
 use crate::solve::partition;
 use crate::solve::pose::PosePath;
@@ -20,6 +20,17 @@ pub struct Mooring {
     pub parts: Vec<Part>,
     hung: Hung,
     scene: Scene,
+}
+
+/// A mooring at rest.
+#[derive(Debug, Clone)]
+pub struct Equilibrium {
+    /// Outputs of its lines.
+    pub outputs: Vec<Outputs>,
+    /// Its bodies.
+    pub bodies: Vec<BodyOutputs>,
+    /// Its free points: number in the scene, and position [m].
+    pub points: Vec<(usize, Vector3<f64>)>,
 }
 
 /// How each body moves that is driven, and what hangs on it.
@@ -61,6 +72,30 @@ impl Mooring {
         })
     }
 
+    /// Puts everything in equilibrium at a time.
+    pub fn equilibrium(&mut self, time: f64) -> Result<Equilibrium, Error> {
+        let (mut outputs, mut poses, mut points) = (vec![None; self.scene.lines.len()], Vec::new(), Vec::new());
+        for part in &mut self.parts {
+            part.settle(time)?;
+            for (local, index) in part.lines().to_vec().into_iter().enumerate() {
+                outputs[index] = Some(part.outputs(local));
+            }
+            poses.extend(part.bodies());
+            points.extend(part.points());
+        }
+        let outputs: Vec<Outputs> = outputs.into_iter().flatten().collect();
+        Ok(Equilibrium { bodies: self.bodies(time, &poses, &outputs), outputs, points })
+    }
+
+    /// Tells a scene where its free bodies and points are.
+    pub fn place_in(&self, scene: &mut Scene) {
+        for part in &self.parts {
+            if let Part::Group(group) = part {
+                group.place_in(scene);
+            }
+        }
+    }
+
     /// All bodies at a time, as `Hung::bodies`.
     pub fn bodies(&self, time: f64, free: &[(usize, Pose)], outputs: &[Outputs]) -> Vec<BodyOutputs> {
         self.hung.bodies(time, free, outputs)
@@ -89,7 +124,8 @@ impl Mooring {
             }
             let outputs = simulation.observe();
             let condensed = simulation.end_stiffness()?;
-            let at = |anchor: bool| if anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) };
+            let at =
+                |anchor: bool| if anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) };
             let lever = |anchor: bool| {
                 let mut lever = Matrix6x3::zeros();
                 lever.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
@@ -114,17 +150,10 @@ impl Mooring {
     /// The same by central differences of statics with the body held in poses nearby.
     fn stiffness_by_differences(&mut self, body: usize, time: f64) -> Option<Matrix> {
         let mut scene = self.scene.clone();
-        for part in &self.parts {
-            if let Part::Group(group) = part {
-                group.place_in(&mut scene);
-            }
-        }
+        self.place_in(&mut scene);
         let own = &mut scene.bodies[body];
-        let [position, angles] = if own.is_free() {
-            [Vector3::from(own.position), own.attitude()]
-        } else {
-            self.hung.bodies[body].0.pose(time)
-        };
+        let [position, angles] =
+            if own.is_free() { [Vector3::from(own.position), own.attitude()] } else { self.hung.bodies[body].0.pose(time) };
         let length = scene.lines.iter().map(|line| line.length()).fold(f64::INFINITY, f64::min);
         let (step, ends) = (1.0e-5 * length, loads::hanging(&scene, body));
         let arm = ends.iter().fold(1.0e-3 * length, |arm: f64, (line, anchor)| {

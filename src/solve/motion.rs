@@ -2,9 +2,9 @@
 
 use crate::algebra::shape::Shape;
 use crate::algebra::sinusoid::Sinusoid;
+use crate::scene::bodies::{BodyMotion, Mount, PointMotion};
 use crate::scene::motion_file::Table;
 use crate::scene::read::Loaded;
-use crate::scene::bodies::{BodyMotion, Mount, PointMotion};
 use crate::scene::types::{Motion, Triple};
 pub use crate::solve::pose::Kinematics;
 use crate::solve::pose::PosePath;
@@ -115,7 +115,10 @@ impl Path {
             }),
             Mount::Point { point } => {
                 let number = scene.point(point);
-                match (number.map(|number| &scene.points[number].motion), number.and_then(|n| loaded.point_motions.get(n)?.clone())) {
+                match (
+                    number.map(|number| &scene.points[number].motion),
+                    number.and_then(|n| loaded.point_motions.get(n)?.clone()),
+                ) {
                     (Some(PointMotion::Sinusoidal { period, sine, cosine, ramp }), _) => {
                         Path::Sinusoidal { origin: place.into(), offset: Sinusoid::new(*period, *sine, *cosine, *ramp) }
                     }

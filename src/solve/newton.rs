@@ -7,8 +7,8 @@
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
 use crate::algebra::definite::is_positive_definite;
 use crate::rod::element::{Motion, Weights};
-use crate::rod::system::System;
 use crate::rod::state::{COMPONENTS, Field, State};
+use crate::rod::system::System;
 use crate::solve::memory::{Memory, Shelf};
 use crate::solve::search;
 use crate::solve::unknowns::Unknowns;
@@ -144,7 +144,9 @@ impl Newton {
         if let (Some(origin), false) = (&self.memory.origin, self.at_hand) {
             line.tangent(&motion(&origin.state), &origin.weights, None, &mut self.matrix);
             self.effort.factorisations += 1;
-            self.unknowns.factor(line, &motion(&origin.state), &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
+            self.unknowns
+                .factor(line, &motion(&origin.state), &mut self.matrix)
+                .map_err(|Singular { index }| Stall::Singular { node: index })?;
             self.at_hand = true;
         }
         Ok(())

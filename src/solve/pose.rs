@@ -246,7 +246,8 @@ mod tests {
         let file = "0,0,0,0,0,0,0\n1,1,0.5,0.1,10,5,20\n2,1,1,0.3,12,-5,30\n3,0,1,0.2,-3,-8,10\n4,0,0,0,0,0,0\n";
         let (one, two) = (Vector3::new(1.0, 0.3, 0.5), Vector3::new(0.2, -0.3, 0.4));
         let sinusoid = |scale: f64| Sinusoid { omega: 0.9, sine: one * scale, cosine: two * scale, ramp: 5.0 };
-        let polynomial = PosePath::Polynomial { start: 1.0, position: vec![one, two, one, two], angles: vec![two, one, two * 0.3] };
+        let polynomial =
+            PosePath::Polynomial { start: 1.0, position: vec![one, two, one, two], angles: vec![two, one, two * 0.3] };
         let paths = [
             PosePath::Sinusoidal { about: [one, two], offsets: [sinusoid(1.0), sinusoid(0.4)] },
             PosePath::Table(Arc::new(pose_file::parse(file, "a.csv").expect("a table"))),

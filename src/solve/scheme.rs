@@ -76,7 +76,9 @@ impl Bench<'_> {
         if let Some(anchor) = self.anchor {
             let at = anchor.at(clock.now);
             let State { u, v, a, .. } = state;
-            [(u, at.position), (v, at.velocity), (a, at.acceleration)].into_iter().for_each(|(field, to)| self.put_anchor(field, &to));
+            [(u, at.position), (v, at.velocity), (a, at.acceleration)]
+                .into_iter()
+                .for_each(|(field, to)| self.put_anchor(field, &to));
         }
         if !matches!(self.stages, Stages::Linear(_)) {
             self.line.follow(state);

@@ -697,7 +697,6 @@ impl Simulation {
         self.begin_anew(None);
         true
     }
-
 }
 
 /// The fairlead takes up the velocity and acceleration of its path, the line the accelerations that fit.

@@ -48,7 +48,19 @@ impl Snapshot {
         let (state, earlier, tensions) = (State::new(nodes), Field::new(nodes), Tensions::default());
         let moment = Moment { state, earlier, last_step: 0.0, step: 0.0, tried: 0.0, guard: 0 };
         let (memory, last) = (Memory::none(), LastStep::default());
-        Snapshot { moment, memory, tensions, work: 0.0, anchor_work: 0.0, works: Vec::new(), fresh: true, resting: false, planar: false, error: 0.0, last }
+        Snapshot {
+            moment,
+            memory,
+            tensions,
+            work: 0.0,
+            anchor_work: 0.0,
+            works: Vec::new(),
+            fresh: true,
+            resting: false,
+            planar: false,
+            error: 0.0,
+            last,
+        }
     }
 
     /// Number of nodes of the line it belongs to.
@@ -104,7 +116,9 @@ impl Snapshot {
             m.state.frames.len() as u64,
             self.works.len() as u64,
         ];
-        out.reserve(8 * (words.len() + SCALARS + 18 * m.state.frames.len() + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())));
+        out.reserve(
+            8 * (words.len() + SCALARS + 18 * m.state.frames.len() + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())),
+        );
         words.into_iter().for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
         let clock = m.state.clock;
         let steps = [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate, memory.loose_rate];
@@ -160,7 +174,10 @@ impl Snapshot {
             let weights = Weights { u: number()?, v: number()?, a: number()? };
             let clock = Clock { now: number()?, start: number()? };
             let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
-            Some(Arc::new(Origin { weights, state: State { clock, u, v, a, holds: field(holding, &mut number)?, frames: turns(bodies, &mut number)? } }))
+            Some(Arc::new(Origin {
+                weights,
+                state: State { clock, u, v, a, holds: field(holding, &mut number)?, frames: turns(bodies, &mut number)? },
+            }))
         };
         let origin = if kept { Some(origin()?) } else { None };
         Some(Snapshot {

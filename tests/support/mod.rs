@@ -300,7 +300,8 @@ impl Rig {
         let line = self.line.as_ref();
         let criteria = Criteria { tolerance: 1.0e-13, length: line.mesh().length, emphasis: 1.0, iterations: 30 };
         let demands = Demands { error: 1.0, finest_step: 0.0, max_step: step, fixed_step: Some(step), criteria };
-        let mut bench = Bench { line, newton: &mut self.newton, path, anchor: None, criteria, allowed: 0.0, stages: Stages::Solve };
+        let mut bench =
+            Bench { line, newton: &mut self.newton, path, anchor: None, criteria, allowed: 0.0, stages: Stages::Solve };
         let mut moment: Moment = controller::at_rest(line, 0.0, step);
         moment.state = self.state.clone();
         bench.prescribe(&mut moment.state, Clock::at_rest(0.0));

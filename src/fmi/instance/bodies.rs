@@ -3,8 +3,8 @@
 use super::Instance;
 use super::built::{Built, BuiltLine, Route, What};
 use crate::algebra::rotation;
-use crate::fmi::body_variables::{BodyInput, BodyOutput, Part, number_of};
 use crate::error::Error;
+use crate::fmi::body_variables::{BodyInput, BodyOutput, Part, number_of};
 use crate::fmi::inputs::Inputs;
 use crate::fmi::refusal::Refusal;
 use crate::fmi::segment::Segment;
@@ -96,8 +96,10 @@ impl Built {
             }
         }
         directions.applied.iter().flatten().flatten().for_each(|x| size = size.max(x.abs() / FORCE));
-        let variations: Vec<Option<Segment>> =
-            members.iter().map(|index| fairlead_variation(&moment.ends[*index], &lines[*index], *filter, directions.lines[*index])).collect();
+        let variations: Vec<Option<Segment>> = members
+            .iter()
+            .map(|index| fairlead_variation(&moment.ends[*index], &lines[*index], *filter, directions.lines[*index]))
+            .collect();
         let drive = |group: &mut Group, share: f64| {
             for (local, index) in members.iter().enumerate() {
                 let line = &lines[*index];
@@ -127,7 +129,8 @@ impl Built {
                     for (values, change) in applied.iter_mut().zip(&directions.applied[index]) {
                         values.iter_mut().zip(change).for_each(|(x, change)| *x += share * change);
                     }
-                    let turn = if conventions[index].body_loads { group.body(own).rotation } else { nalgebra::Matrix3::identity() };
+                    let turn =
+                        if conventions[index].body_loads { group.body(own).rotation } else { nalgebra::Matrix3::identity() };
                     let [force, torque] = applied.map(|values| turn * Vector3::from(conventions[index].turned(values)));
                     group.apply(own, force, torque);
                 }
@@ -219,7 +222,9 @@ impl Instance {
         let (mut force, mut moment, mut work) = (Vector3::zeros(), Vector3::zeros(), 0.0);
         for (line, anchor) in built.vessels[body].hung.clone() {
             let (now, rate) = (self.moment.ends[line].outputs, built.output_rates(line));
-            let of_end = |outputs: &Outputs| if anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) };
+            let of_end = |outputs: &Outputs| {
+                if anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) }
+            };
             let ((place, pull), (velocity, change)) = (of_end(&now), of_end(&rate));
             force += change;
             moment += (velocity - motion.reference.velocity).cross(&pull) + (place - reached.position).cross(&change);
@@ -262,7 +267,9 @@ impl Instance {
             whole += pull;
             torque += (place - position).cross(&pull);
             let Some(change) = &changes.lines[*line] else { continue };
-            let of_end = |outputs: &Outputs| if *anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) };
+            let of_end = |outputs: &Outputs| {
+                if *anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) }
+            };
             let ((place, pull), (moved, changed)) = (of_end(&now), of_end(change));
             force += changed;
             moment += (moved - of[0]).cross(&pull) + (place - position).cross(&changed);
@@ -311,7 +318,8 @@ impl Instance {
         let built = self.built.as_mut().ok_or(Refusal::UnknownState)?;
         let mut of_bodies = Vec::new();
         for (index, of) in built.vessels.iter().enumerate() {
-            let [position, angles, ..] = directions.bodies[index].map(|values| Vector3::from(built.conventions[index].turned(values)));
+            let [position, angles, ..] =
+                directions.bodies[index].map(|values| Vector3::from(built.conventions[index].turned(values)));
             let q = of.path.pose(self.moment.clock)[1];
             of_bodies.push(vec![position, rotation::rates_to_omega(&q) * angles]);
         }

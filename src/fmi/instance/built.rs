@@ -94,10 +94,11 @@ impl Built {
         let mut built = settings;
         for (index, body) in scene.bodies.iter().enumerate() {
             let hung = loads::hanging(scene, index);
-            let arm = scene.lines.iter().flat_map(|line| [&line.fairlead_on, &line.anchor_on]).fold(SHORTEST_ARM, |arm, on| match on {
-                Some(Mount::Body { body: name, at }) if *name == body.name => arm.max(Vector3::from(*at).norm()),
-                _ => arm,
-            });
+            let arm =
+                scene.lines.iter().flat_map(|line| [&line.fairlead_on, &line.anchor_on]).fold(SHORTEST_ARM, |arm, on| match on {
+                    Some(Mount::Body { body: name, at }) if *name == body.name => arm.max(Vector3::from(*at).norm()),
+                    _ => arm,
+                });
             let path = Arc::new(PosePath::Fixed { position: body.position.into(), angles: body.attitude() });
             let origin = vessels[index].origin;
             built.vessels.push(BuiltVessel { free: body.is_free(), member: None, arm, hung, origin, voyage: None, path });
@@ -283,14 +284,13 @@ impl Built {
 
     /// Whether states are those of this mooring.
     pub fn fits(&self, snapshots: &[Snapshot]) -> bool {
-        let own = self.lines.iter().filter_map(|line| if let What::Own(simulation) = &line.what { Some(simulation) } else { None });
+        let own =
+            self.lines.iter().filter_map(|line| if let What::Own(simulation) = &line.what { Some(simulation) } else { None });
         let mut from = snapshots.iter();
-        snapshots.len() == self.states()
-            && own.zip(from.by_ref()).all(|(simulation, snapshot)| simulation.fits(snapshot))
-            && {
-                let groups = &snapshots[snapshots.len() - self.groups.len()..];
-                self.groups.iter().zip(groups).all(|(group, snapshot)| group.fits(snapshot))
-            }
+        snapshots.len() == self.states() && own.zip(from.by_ref()).all(|(simulation, snapshot)| simulation.fits(snapshot)) && {
+            let groups = &snapshots[snapshots.len() - self.groups.len()..];
+            self.groups.iter().zip(groups).all(|(group, snapshot)| group.fits(snapshot))
+        }
     }
 
     /// Puts states back that fit.
@@ -314,7 +314,9 @@ impl BuiltLine {
     fn new(scene: &Scene, index: usize, what: What, ends: Ends, limits: Limits) -> BuiltLine {
         let line = &scene.lines[index];
         let mount = |on: &Option<Mount>| match on {
-            Some(Mount::Body { body, at }) => scene.body(body).filter(|body| !scene.bodies[*body].is_free()).map(|body| (body, (*at).into())),
+            Some(Mount::Body { body, at }) => {
+                scene.body(body).filter(|body| !scene.bodies[*body].is_free()).map(|body| (body, (*at).into()))
+            }
             _ => None,
         };
         let mounts = [mount(&line.fairlead_on), mount(&line.anchor_on)];

@@ -96,7 +96,9 @@ impl Instance {
         let said: Vec<Said> = vessels.iter().map(|vessel| vessel.said).collect();
         built.apply(&said);
         let driven = |index: usize| self.interface.scene().lines.get(index).is_some_and(|line| line.fairlead_on.is_none());
-        for (_, (line, End { inputs, path, filter, .. })) in built.lines.iter_mut().zip(ends).enumerate().filter(|(index, _)| driven(*index)) {
+        for (_, (line, End { inputs, path, filter, .. })) in
+            built.lines.iter_mut().zip(ends).enumerate().filter(|(index, _)| driven(*index))
+        {
             let (mut inputs, mut filter) = (*inputs, *filter);
             if built.filter > 0.0 {
                 filter = filter.after(built.filter, *clock, &inputs);
@@ -198,7 +200,8 @@ impl Instance {
             if let (Meaning::BodyOutput(BodyOutput::Work), Some(built)) = (variable.meaning, &self.built) {
                 let of = &built.vessels[variable.line];
                 if of.hung.iter().any(|(line, anchor)| *anchor || !built.lines[*line].is_own()) {
-                    let (role, allowed) = ("an unknown", "the work on a body has a derivative where only fairleads of lines alone hang on it");
+                    let (role, allowed) =
+                        ("an unknown", "the work on a body has a derivative where only fairleads of lines alone hang on it");
                     return Err(Refusal::Direction { name: variable.name.clone(), role, allowed });
                 }
             }

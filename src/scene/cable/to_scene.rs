@@ -67,7 +67,17 @@ pub fn meaning(deck: &Deck) -> Meaning {
     let environment = environment(deck, common);
     let solver = Solver { stretch: Some(Stretch::Report), hydrostatic_strain: true, ..Solver::default() };
     Meaning {
-        scene: Scene { title: deck.title.clone(), environment, line_types, lines: vec![line], bodies: Vec::new(), points: Vec::new(), motion, run, solver },
+        scene: Scene {
+            title: deck.title.clone(),
+            environment,
+            line_types,
+            lines: vec![line],
+            bodies: Vec::new(),
+            points: Vec::new(),
+            motion,
+            run,
+            solver,
+        },
         state,
         warnings,
     }

@@ -22,11 +22,21 @@ pub(super) fn names(scene: &Scene, file: &str) -> Result<(), Error> {
             return refuse(file, place.as_str(), format!("{name:?}"), "it needs a name of printable characters");
         }
         if let Some((twin, _)) = all[..number].iter().find(|(_, other)| other == name) {
-            return refuse(file, place.as_str(), format!("{name:?}"), format!("{twin} is called so already; lines, bodies and points share their names"));
+            return refuse(
+                file,
+                place.as_str(),
+                format!("{name:?}"),
+                format!("{twin} is called so already; lines, bodies and points share their names"),
+            );
         }
     }
     if scene.bodies.len().max(scene.points.len()) > MOST {
-        return refuse(file, "bodies", scene.bodies.len().to_string(), format!("a scene has at most {MOST} bodies and {MOST} points"));
+        return refuse(
+            file,
+            "bodies",
+            scene.bodies.len().to_string(),
+            format!("a scene has at most {MOST} bodies and {MOST} points"),
+        );
     }
     Ok(())
 }
@@ -38,7 +48,12 @@ pub(super) fn bodies(scene: &Scene, file: &str) -> Result<(), Error> {
         finite(file, &at("position"), &body.position)?;
         finite(file, &at("attitude_deg"), &body.attitude_deg)?;
         if !(body.attitude_deg[1].abs() <= STEEPEST) {
-            return refuse(file, at("attitude_deg[1]"), number(body.attitude_deg[1]), "a pitch lies within ±89 deg, where roll and yaw are defined");
+            return refuse(
+                file,
+                at("attitude_deg[1]"),
+                number(body.attitude_deg[1]),
+                "a pitch lies within ±89 deg, where roll and yaw are defined",
+            );
         }
         not_negative(file, &at("mass"), body.mass, "kg")?;
         not_negative(file, &at("volume"), body.volume, "m³")?;
@@ -71,7 +86,12 @@ fn six_by_six(file: &str, place: &str, matrix: Option<&Matrix>, dissipates: bool
     let symmetric = nalgebra::Matrix6::from_fn(|row, column| 0.5 * (matrix[row][column] + matrix[column][row]));
     let eigenvalues = SymmetricEigen::new(symmetric).eigenvalues;
     if dissipates && !(eigenvalues.min() >= -1.0e-9 * eigenvalues.amax()) {
-        return refuse(file, place, "a matrix with a negative direction", "moving any way must cost energy: it must be positive semidefinite");
+        return refuse(
+            file,
+            place,
+            "a matrix with a negative direction",
+            "moving any way must cost energy: it must be positive semidefinite",
+        );
     }
     Ok(())
 }
@@ -114,13 +134,23 @@ fn motion_of_body(body: &Body, file: &str, at: &impl Fn(&str) -> String) -> Resu
 fn mass(body: &Body, file: &str, at: &impl Fn(&str) -> String) -> Result<(), Error> {
     let of_cylinders: f64 = body.cylinders.iter().map(|cylinder| cylinder.mass).sum();
     if !(body.mass + of_cylinders > 0.0) {
-        return refuse(file, at("mass"), number(body.mass), "a free body needs a mass greater than 0 kg, of its own or of its cylinders");
+        return refuse(
+            file,
+            at("mass"),
+            number(body.mass),
+            "a free body needs a mass greater than 0 kg, of its own or of its cylinders",
+        );
     }
     let Some(inertia) = body.inertia.as_ref().map(|inertia| inertia.matrix()) else {
         if of_cylinders > 0.0 {
             return Ok(());
         }
-        return refuse(file, at("inertia"), "nothing", "a free body needs an inertia [Ixx, Iyy, Izz] about its centre of mass, or cylinders with mass");
+        return refuse(
+            file,
+            at("inertia"),
+            "nothing",
+            "a free body needs an inertia [Ixx, Iyy, Izz] about its centre of mass, or cylinders with mass",
+        );
     };
     finite(file, &at("inertia"), inertia.as_slice())?;
     let (skew, size) = ((inertia - inertia.transpose()).amax(), inertia.amax());
@@ -131,10 +161,20 @@ fn mass(body: &Body, file: &str, at: &impl Fn(&str) -> String) -> Result<(), Err
     moments.sort_by(f64::total_cmp);
     if !(moments[0] >= 0.0 && moments[2] <= (moments[0] + moments[1]) * (1.0 + 1.0e-9)) {
         let value = format!("principal moments {}, {}, {}", number(moments[0]), number(moments[1]), number(moments[2]));
-        return refuse(file, at("inertia"), value, "no distribution of mass has it: none may be negative or larger than the sum of the other two");
+        return refuse(
+            file,
+            at("inertia"),
+            value,
+            "no distribution of mass has it: none may be negative or larger than the sum of the other two",
+        );
     }
     if !(moments[0] > 0.0 || of_cylinders > 0.0) {
-        return refuse(file, at("inertia"), number(moments[0]), "a free body needs a principal moment greater than 0 kg·m² about every axis");
+        return refuse(
+            file,
+            at("inertia"),
+            number(moments[0]),
+            "a free body needs a principal moment greater than 0 kg·m² about every axis",
+        );
     }
     Ok(())
 }
@@ -156,11 +196,21 @@ pub(super) fn points(scene: &Scene, file: &str) -> Result<(), Error> {
         }
         if scene.environment.is_below_bed(*position) {
             let bed = number(scene.environment.bed_height(position[0], position[1]));
-            return refuse(file, at("position"), triple(*position), format!("it lies below the seabed, which is at z = {bed} m there"));
+            return refuse(
+                file,
+                at("position"),
+                triple(*position),
+                format!("it lies below the seabed, which is at z = {bed} m there"),
+            );
         }
         let hangs = |on: &Option<Mount>| matches!(on, Some(Mount::Point { point: name }) if *name == point.name);
         if point.is_free() && !scene.lines.iter().any(|line| hangs(&line.fairlead_on) || hangs(&line.anchor_on)) {
-            return refuse(file, at("name"), format!("{:?}", point.name), "a free point without a line would fall; hang a line on it, or fix it");
+            return refuse(
+                file,
+                at("name"),
+                format!("{:?}", point.name),
+                "a free point without a line would fall; hang a line on it, or fix it",
+            );
         }
     }
     Ok(())
@@ -191,10 +241,20 @@ pub(super) fn ends(scene: &Scene, file: &str) -> Result<(), Error> {
         }
         if line.fairlead_on.is_some() && line.fairlead_on == line.anchor_on {
             let name = line.fairlead_on.as_ref().map_or("", Mount::name);
-            return refuse(file, format!("lines[{index}].anchor"), format!("{name:?} again"), "both ends are on one place; put them on two");
+            return refuse(
+                file,
+                format!("lines[{index}].anchor"),
+                format!("{name:?} again"),
+                "both ends are on one place; put them on two",
+            );
         }
         if scene.solver.scheme == Scheme::Cable1994 && (line.fairlead_on.is_some() || line.anchor_on.is_some()) {
-            return refuse(file, "solver.scheme", "\"cable-1994\"", "it knows lines between coordinates alone; use adams-moulton");
+            return refuse(
+                file,
+                "solver.scheme",
+                "\"cable-1994\"",
+                "it knows lines between coordinates alone; use adams-moulton",
+            );
         }
     }
     Ok(())
@@ -208,7 +268,12 @@ pub(super) fn places_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
         for (end, at, mounted) in ends {
             if mounted && scene.environment.is_below_bed(at) {
                 let bed = number(scene.environment.bed_height(at[0], at[1]));
-                return refuse(file, format!("lines[{index}].{end}"), triple(at), format!("it lies below the seabed, which is at z = {bed} m there"));
+                return refuse(
+                    file,
+                    format!("lines[{index}].{end}"),
+                    triple(at),
+                    format!("it lies below the seabed, which is at z = {bed} m there"),
+                );
             }
         }
     }

@@ -167,7 +167,10 @@ impl Group {
     }
 
     fn of_masters(&self, field: &Field) -> DVector<f64> {
-        DVector::from_iterator(6 * self.masters.len(), self.masters.iter().flat_map(|node| (0..6).map(|c| field.component(c)[*node])))
+        DVector::from_iterator(
+            6 * self.masters.len(),
+            self.masters.iter().flat_map(|node| (0..6).map(|c| field.component(c)[*node])),
+        )
     }
 
     /// A state with its masters moved.
