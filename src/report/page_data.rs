@@ -1,9 +1,12 @@
 //! The numbers behind the page's plots, small enough to travel in it: integers of a quantum that no eye can tell from the value,
 //! and of a long run only as many rows and snapshots as a screen can show.
 
-use crate::report::record::{LineRecord, Record, Statistics, touchdown};
+use crate::report::record::{LineRecord, PointRecord, Record, Statistics, touchdown};
 use crate::report::units::ForceUnit;
+use crate::scene::bodies::Mount;
+use crate::solve::loads::BodyOutputs;
 use crate::solve::simulation::{NodeOutput, Outputs};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Most rows a page holds times the number of lines.
@@ -36,6 +39,26 @@ struct Data<'a> {
     time: Vec<f64>,
     snapshot_times: Vec<f64>,
     lines: Vec<Line<'a>>,
+    bodies: Vec<Body<'a>>,
+    points: Vec<Point<'a>>,
+}
+
+/// A body: its pose over time, the loads of the lines on it, and edges that show it, in its own axes.
+#[derive(Serialize)]
+struct Body<'a> {
+    name: &'a str,
+    /// x, y, z, roll, pitch, yaw.
+    pose: Vec<Column>,
+    /// Three of force, three of moment.
+    loads: Vec<Column>,
+    edges: Vec<[[f64; 3]; 2]>,
+}
+
+/// A free point: x, y, z over time.
+#[derive(Serialize)]
+struct Point<'a> {
+    name: &'a str,
+    place: Vec<Column>,
 }
 
 #[derive(Serialize)]
@@ -114,6 +137,8 @@ pub fn json(record: &Record, unit: ForceUnit) -> PageData {
         time: rows.iter().map(|row| rounded(record.times[*row])).collect(),
         snapshot_times: snapshots.iter().map(|snapshot| rounded(record.snapshot_times[*snapshot])).collect(),
         lines: (0..record.lines.len()).map(|index| line(record, index, &rows, &snapshots, &quanta)).collect(),
+        bodies: (0..record.bodies.len()).map(|index| body(record, index, &rows)).collect(),
+        points: record.points.iter().map(|of| point(of, &rows)).collect(),
     };
     // Numbers and strings only: there is nothing in them that JSON cannot hold.
     PageData { text: serde_json::to_string(&data).unwrap_or_default(), rows: rows.len() }
@@ -146,6 +171,68 @@ fn line<'a>(record: &'a Record, index: usize, rows: &[usize], snapshots: &[usize
         shapes: snapshots.iter().map(|snapshot| shape(&line.snapshots[*snapshot], quanta)).collect(),
         touchdown: touchdowns(record, index, snapshots),
     }
+}
+
+fn body<'a>(record: &'a Record, index: usize, rows: &[usize]) -> Body<'a> {
+    let of = &record.bodies[index];
+    let column = |value: &dyn Fn(&BodyOutputs) -> f64| column(rows.iter().filter_map(|row| of.rows.get(*row)).map(value).collect());
+    let three = |value: fn(&BodyOutputs) -> &Vector3<f64>| (0..3).map(move |axis| (value, axis));
+    let columns = |values: [fn(&BodyOutputs) -> &Vector3<f64>; 2]| -> Vec<Column> {
+        values.into_iter().flat_map(three).map(|(value, axis)| column(&move |row| value(row)[axis])).collect()
+    };
+    Body {
+        name: &of.name,
+        pose: columns([|row| &row.pose.position, |row| &row.pose.angles]),
+        loads: columns([|row| &row.force, |row| &row.moment]),
+        edges: edges(record, index),
+    }
+}
+
+fn point<'a>(of: &'a PointRecord, rows: &[usize]) -> Point<'a> {
+    let place = |axis: usize| column(rows.iter().filter_map(|row| of.rows.get(*row)).map(|place| place[axis]).collect());
+    Point { name: &of.name, place: (0..3).map(place).collect() }
+}
+
+/// Sides of a circle that is drawn.
+const SIDES: usize = 12;
+
+/// What is drawn of a body: its cylinders, or else the places that lines hang on, joined around and with the reference point.
+fn edges(record: &Record, index: usize) -> Vec<[[f64; 3]; 2]> {
+    let body = &record.scene.bodies[index];
+    let mut edges = Vec::new();
+    for cylinder in &body.cylinders {
+        let (from, to) = (Vector3::from(cylinder.from), Vector3::from(cylinder.to));
+        let axis = (to - from).normalize();
+        let aside = if axis.x.abs() < 0.7 { Vector3::x() } else { Vector3::y() };
+        let first = axis.cross(&aside).normalize();
+        let second = axis.cross(&first);
+        let rim = |end: &Vector3<f64>, k: usize| -> [f64; 3] {
+            let (sin, cos) = (std::f64::consts::TAU * k as f64 / SIDES as f64).sin_cos();
+            (end + (first * cos + second * sin) * (0.5 * cylinder.diameter)).into()
+        };
+        for k in 0..SIDES {
+            edges.push([rim(&from, k), rim(&from, k + 1)]);
+            edges.push([rim(&to, k), rim(&to, k + 1)]);
+            if k % 3 == 0 {
+                edges.push([rim(&from, k), rim(&to, k)]);
+            }
+        }
+    }
+    let on = |mount: &Option<Mount>| match mount {
+        Some(Mount::Body { body: name, at }) if *name == body.name => Some(*at),
+        _ => None,
+    };
+    let mut places: Vec<[f64; 3]> =
+        record.scene.lines.iter().flat_map(|line| [on(&line.fairlead_on), on(&line.anchor_on)]).flatten().collect();
+    places.sort_by(|a, b| a[1].atan2(a[0]).total_cmp(&b[1].atan2(b[0])));
+    places.dedup();
+    if edges.is_empty() {
+        for (number, place) in places.iter().enumerate() {
+            edges.push([[0.0; 3], *place]);
+            edges.push([*place, places[(number + 1) % places.len()]]);
+        }
+    }
+    edges
 }
 
 /// Arc lengths of the touchdown at the snapshots, from the rows of the same times.

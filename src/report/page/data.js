@@ -10,6 +10,29 @@ const lines = data.lines.map((line, index) => ({
   shapes: line.shapes.map(shape),
 }));
 
+const bodies = data.bodies.map((body, index) => ({
+  ...body, color: `--line-${((lines.length + index) % 8) + 1}`, pose: body.pose.map(decode), loads: body.loads.map(decode),
+}));
+const points = data.points.map(point => ({ ...point, place: point.place.map(decode) }));
+
+// The edges of a body at a time, in global axes.
+function bodyAt(body, time) {
+  const { time: times } = data;
+  if (!body.pose[0].length) return [];
+  let j = times.findIndex(t => t >= time);
+  if (j < 0) j = times.length - 1;
+  const i = Math.max(j - 1, 0);
+  const w = i === j ? 1 : (time - times[i]) / (times[j] - times[i]);
+  const [x, y, z, roll, pitch, yaw] = body.pose.map(values => values[i] + w * (values[j] - values[i]));
+  const [[sr, cr], [sp, cp], [sy, cy]] = [roll, pitch, yaw].map(angle => [Math.sin(angle), Math.cos(angle)]);
+  const place = ([a, b, c]) => [
+    x + cy * cp * a + (cy * sp * sr - sy * cr) * b + (cy * sp * cr + sy * sr) * c,
+    y + sy * cp * a + (sy * sp * sr + cy * cr) * b + (sy * sp * cr - cy * sr) * c,
+    z - sp * a + cp * sr * b + cp * cr * c,
+  ];
+  return body.edges.map(edge => edge.map(place));
+}
+
 // One state of a line: flat positions x0, y0, z0, x1, … and unit tangents alike, and the tension of each node.
 function shape({ p, d, t }) {
   const times = (list, quantum) => Float64Array.from(list, n => n * quantum);

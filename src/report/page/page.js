@@ -75,6 +75,10 @@ function chooseView() {
   all.forEach((plane, index) => option(element("plane"), plane.label, index));
   const relayout = change => event => { change(event.target); shapes.layout(); shapes.draw(state.time); };
   element("plane").addEventListener("change", relayout(select => { shapes.plane = all[select.value]; }));
+  element("turn").addEventListener("input", relayout(slider => {
+    const angle = slider.value * Math.PI / 180;
+    shapes.plane = { label: "turned", d: [Math.cos(angle), Math.sin(angle)], u: `along ${slider.value}° from x`, v: "across" };
+  }));
   element("equal").addEventListener("change", relayout(box => { shapes.equal = box.checked; }));
   element("magnify").addEventListener("change", relayout(select => { shapes.factor = +select.value; }));
   element("line").hidden = single;

@@ -26,6 +26,29 @@ const QUANTITIES = [
     curves: () => lines.flatMap((line, i) => [0, 1, 2].map(k => offset(line, k, `--line-${((3 * i + k) % 8) + 1}`))) },
 ];
 
+if (bodies.length) {
+  const curves = (k, per) => bodies.flatMap((body, i) => [0, 1, 2].map(axis => ({
+    label: `${body.name} ${"xyz"[axis]}`, color: `--line-${((3 * i + axis) % 8) + 1}`, values: body.loads[k + axis].map(v => v / per),
+  })));
+  const momentText = v => (v === null || v === undefined ? "–" : `${v.toFixed(data.unit.decimals)} ${data.unit.symbol} m`);
+  QUANTITIES.push(
+    { name: "Force on bodies", axis: `Force of the lines [${data.unit.symbol}]`, text: forceText, curves: () => curves(0, data.unit.newtons) },
+    { name: "Moment on bodies", axis: `Moment of the lines [${data.unit.symbol} m]`, text: momentText, curves: () => curves(3, data.unit.newtons) },
+    { name: "Motion of bodies", axis: "Offset [m]", text: metreText, curves: () => bodies.flatMap((body, i) => [0, 1, 2].map(axis => ({
+      label: `${body.name} ${"xyz"[axis]}`, color: `--line-${((3 * i + axis) % 8) + 1}`, values: body.pose[axis].map(v => v - body.pose[axis][0]),
+    }))) },
+    { name: "Turns of bodies", axis: "Roll, pitch, yaw [deg]", text: v => (v === null || v === undefined ? "–" : `${v.toFixed(2)}°`),
+      curves: () => bodies.flatMap((body, i) => ["roll", "pitch", "yaw"].map((name, axis) => ({
+        label: `${body.name} ${name}`, color: `--line-${((3 * i + axis) % 8) + 1}`, values: body.pose[axis + 3].map(v => v * 180 / Math.PI),
+      }))) },
+  );
+}
+if (points.length) {
+  QUANTITIES.push({ name: "Free points", axis: "Offset [m]", text: metreText, curves: () => points.flatMap((point, i) => [0, 1, 2].map(axis => ({
+    label: `${point.name} ${"xyz"[axis]}`, color: `--line-${((3 * i + axis) % 8) + 1}`, values: point.place[axis].map(v => v - point.place[axis][0]),
+  }))) });
+}
+
 function plotHeight(width) {
   return Math.round(Math.min(Math.max(width * 0.3, 220), 330));
 }

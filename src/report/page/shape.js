@@ -184,6 +184,23 @@ function drawLines(c, view, states, project) {
   });
 }
 
+// Bodies as their edges.
+function drawBodies(c, view, time, project) {
+  c.setLineDash([]);
+  c.lineWidth = 1.5;
+  for (const body of bodies) {
+    c.strokeStyle = css(body.color);
+    for (const edge of bodyAt(body, time)) {
+      c.beginPath();
+      for (const place of edge) {
+        const [u, v] = project(...place);
+        c.lineTo(view.x(u), view.y(v));
+      }
+      c.stroke();
+    }
+  }
+}
+
 // The name of a line beside its anchor, on the side with room for it.
 function drawName(c, view, line, anchor, project) {
   const [u, v] = project(...anchor);
@@ -253,6 +270,7 @@ class Shape {
   planOf = (x, y) => [x * this.plane.d[0] + y * this.plane.d[1], y * this.plane.d[0] - x * this.plane.d[1]];
 
   draw(time) {
+    this.time = time;
     this.states = drawn.map(line => magnified(line, stateAt(line, time), this.factor));
     this.drawSide();
     this.drawPlan();
@@ -283,6 +301,7 @@ class Shape {
     c.lineTo(MARGIN.left - 2, bottom + 1e4);
     c.fill();
     c.restore();
+    drawBodies(c, view, this.time, this.sideOf);
     drawLines(c, view, this.states, this.sideOf);
   }
 
@@ -292,6 +311,7 @@ class Shape {
     c.fillStyle = css("--water");
     c.fillRect(MARGIN.left, MARGIN.top, view.inner, view.plotHeight);
     frame(c, view, this.plane.u, this.plane.v);
+    drawBodies(c, view, this.time, this.planOf);
     drawLines(c, view, this.states, this.planOf);
     if (!single) drawn.forEach(line => drawName(c, view, line, line.anchor, this.planOf));
   }
