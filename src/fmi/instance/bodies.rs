@@ -65,7 +65,7 @@ fn fairlead_variation(end: &End, line: &BuiltLine, cutoff: f64, direction: [[f64
 }
 
 /// Displacement, and share of a weight, by which a group is moved to and fro to differentiate its steps.
-const SHARE: f64 = 1.0e-4;
+const SHARE: f64 = 1.0e-2;
 /// Force that counts as a displacement of one metre [N].
 const FORCE: f64 = 1.0e5;
 
