@@ -458,3 +458,85 @@ fn a_reader_that_goes_away_is_no_error() {
         assert_eq!((output.status.code(), err(&output)), (Some(0), String::new()), "{arguments:?}");
     }
 }
+
+fn example(name: &str) -> String {
+    format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn statics_tells_of_bodies_and_points() {
+    let here = directory("bodies");
+    let output = moorline(&here, &["statics", &example("calm-buoy.json"), "--json"]);
+    assert_done(&output);
+    let found = json(&out(&output));
+    let buoy = &found["bodies"][0];
+    assert_eq!(buoy["name"], "buoy");
+    for key in ["position", "attitude_deg", "force", "moment"] {
+        assert_eq!(buoy[key].as_array().map(Vec::len), Some(3), "{key}");
+    }
+    assert_eq!(buoy["stiffness"].as_array().map(Vec::len), Some(6));
+    let output = moorline(&here, &["statics", &example("crowfoot.json"), "--json"]);
+    assert_eq!(json(&out(&output))["points"].as_array().map(Vec::len), Some(3));
+}
+
+#[test]
+fn the_columns_of_bodies_and_points_follow_those_of_the_lines() {
+    let here = directory("body-columns");
+    assert_done(&moorline(&here, &["run", &example("wave-energy-floats.json"), "--set", "run.duration=2", "-q"]));
+    let (names, rows) = table(&here.join("out/timeseries.csv"));
+    let at = |name: &str| names.iter().position(|own| own == name).unwrap_or_else(|| panic!("{name} is missing: {names:?}"));
+    let sum: f64 = ["a", "b", "c"].iter().map(|leg| rows[7][at(&format!("upper {leg}.force_z"))]).sum();
+    assert!((rows[7][at("device.force_z")] / sum - 1.0).abs() < 1e-12);
+    for name in ["device.x", "device.yaw", "device.moment_z", "float a.x", "float c.z"] {
+        at(name);
+    }
+}
+
+#[test]
+fn offsets_write_the_restoring_curve() {
+    let here = directory("offsets");
+    let scene = example("semi-submersible.json");
+    assert_done(&moorline(&here, &["statics", &scene, "--offsets", "platform.x=-10:10:5"]));
+    let (names, rows) = table(&here.join("out/offsets.csv"));
+    assert_eq!((names.len(), rows.len()), (10, 5));
+    // At rest as statics, and aside as statics of a scene put there.
+    let aside = moorline(
+        &here,
+        &["statics", &scene, "--json", "--set", "bodies[0].position=[10,0,0]", "--set", "bodies[0].motion={\"kind\": \"fixed\"}"],
+    );
+    let force = &json(&out(&aside))["bodies"][0]["force"];
+    assert!((rows[4][1] / force[0].as_f64().unwrap_or(0.0) - 1.0).abs() < 1e-3, "{:?} {force}", rows[4]);
+    assert!(here.join("out/offsets.html").is_file());
+    for (asked, words) in [
+        ("platfrom.x=-1:1:1", "did you mean `platform`"),
+        ("platform.q=-1:1:1", "vessel.x=-20:20:1"),
+        ("platform.x=1:-1:1", "the step is positive"),
+        ("platform.x=1:2", "vessel.x=-20:20:1"),
+    ] {
+        assert_fails(&moorline(&here, &["statics", &scene, "--offsets", asked]), 2, &[words]);
+    }
+}
+
+#[test]
+fn fit_finds_the_length_of_a_pretension() {
+    let here = directory("fit");
+    let scene = example("semi-submersible.json");
+    let change = ["--change", "lines[0].sections[0].length"];
+    let fit = |until: &str| moorline(&here, &["fit", &scene, change[0], change[1], "--until", until, "-o", "fitted.json"]);
+    assert_done(&fit("line1.tension=1.3e6"));
+    let found = json(&out(&moorline(&here, &["statics", "fitted.json", "--json"])));
+    let tension = found["lines"][0]["tension"].as_f64().unwrap_or(0.0);
+    assert!((tension / 1.3e6 - 1.0).abs() < 1e-6, "{tension}");
+    assert_fails(&fit("line1.tension=1e12"), 2, &["no value of", "the nearest is", "--range"]);
+    assert_fails(&fit("line1.tensoin=1e6"), 2, &["did you mean `tension`"]);
+    assert_fails(&fit("lime1.tension=1e6"), 2, &["did you mean `line1`"]);
+    assert_fails(&fit("line1.tension"), 2, &["bow.tension=1.2e6"]);
+    let nowhere = moorline(&here, &["fit", &scene, "--change", "lines[0].name", "--until", "line1.tension=1e6"]);
+    assert_fails(&nowhere, 2, &["name a number of the scene"]);
+    // A value that two places give.
+    let twice = moorline(
+        &here,
+        &["fit", &scene, "--change", "environment.water_density", "--until", "line1.tension=1105e3", "--range", "1:2000"],
+    );
+    assert!(twice.status.code().is_some());
+}

@@ -162,6 +162,50 @@ fn two_lines_in_one_fmu_are_what_each_is_alone() {
     script("lines.py");
 }
 
+/// The FMU of an example and the time series of its run, in a folder of its own.
+fn moored(name: &str, script: &str, sets: &[&str]) {
+    let (python, fmu) = prepared().as_ref().unwrap_or_else(|message| panic!("{message}"));
+    let folder = fmu.with_file_name(name);
+    let scene = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(name).with_extension("json");
+    let program = || Command::new(env!("CARGO_BIN_EXE_moorline"));
+    let packed = folder.join(name).with_extension("fmu");
+    let done = |command: &mut Command| run(command, name).unwrap_or_else(|message| panic!("{message}"));
+    let mut running = program();
+    running.arg("run").arg(&scene).args(["--quiet", "--output"]).arg(&folder);
+    sets.iter().for_each(|set| drop(running.args(["--set", set])));
+    done(&mut running);
+    done(program().arg("pack").arg(&scene).arg("--output").arg(&packed));
+    let file = FilePath::new(env!("CARGO_MANIFEST_DIR")).join(script);
+    let mut command = Command::new(python);
+    command.args(["-X", "faulthandler"]).arg(file).arg(&packed).env("PYTHONDONTWRITEBYTECODE", "1");
+    if script.starts_with("tests") {
+        command.arg(folder.join("timeseries.csv"));
+    }
+    done(&mut command);
+}
+
+#[test]
+fn a_vessel_in_one_fmu_gives_its_pose_and_gets_force_and_moment() {
+    moored("semi-submersible", "tests/fmu/vessel.py", &[]);
+}
+
+#[test]
+fn a_buoy_and_a_ship_in_one_fmu_go_as_in_the_run() {
+    moored("calm-buoy", "tests/fmu/network.py", &[]);
+}
+
+#[test]
+fn a_ship_in_fmpy_is_moored_without_a_line_of_kinematics() {
+    moored("spread-moored-ship", "examples/moored_ship.py", &["run.duration=0"]);
+}
+
+#[test]
+fn held_inputs_warnings_and_clocks_are_understood() {
+    script("multirate.py");
+    script("told.py");
+    script("clocks.py");
+}
+
 #[test]
 fn the_ssp_example_is_valid_and_runs() {
     script("ssp.py");

@@ -93,9 +93,16 @@ fn facts(record: &Record) -> String {
         Motion::Sinusoidal { period, .. } => format!("sinusoidal motion, period {period} s"),
         Motion::File { path } => format!("motion after {path}"),
     };
+    let bodies = match (record.bodies.len(), record.points.len()) {
+        (0, 0) => String::new(),
+        (bodies, 0) => format!(", {}", if bodies == 1 { "1 body".to_string() } else { format!("{bodies} bodies") }),
+        (bodies, points) => {
+            format!(", {bodies} {}, {}", if bodies == 1 { "body" } else { "bodies" }, count(points, "free point"))
+        }
+    };
     let facts = [
         record.file.clone(),
-        format!("{}, {length} m", count(record.lines.len(), "line")),
+        format!("{}, {length} m{bodies}", count(record.lines.len(), "line")),
         format!("{} m of water", scene.environment.depth),
         motion,
         format!("{} s", sim_time(scene.run.duration)),

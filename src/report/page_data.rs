@@ -175,7 +175,8 @@ fn line<'a>(record: &'a Record, index: usize, rows: &[usize], snapshots: &[usize
 
 fn body<'a>(record: &'a Record, index: usize, rows: &[usize]) -> Body<'a> {
     let of = &record.bodies[index];
-    let column = |value: &dyn Fn(&BodyOutputs) -> f64| column(rows.iter().filter_map(|row| of.rows.get(*row)).map(value).collect());
+    let column =
+        |value: &dyn Fn(&BodyOutputs) -> f64| column(rows.iter().filter_map(|row| of.rows.get(*row)).map(value).collect());
     let three = |value: fn(&BodyOutputs) -> &Vector3<f64>| (0..3).map(move |axis| (value, axis));
     let columns = |values: [fn(&BodyOutputs) -> &Vector3<f64>; 2]| -> Vec<Column> {
         values.into_iter().flat_map(three).map(|(value, axis)| column(&move |row| value(row)[axis])).collect()

@@ -28,7 +28,7 @@ const FAR: f64 = 5.0;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 35] = [
+const RULES: [Rule; 36] = [
     gravity,
     water_density,
     depth,
@@ -55,6 +55,7 @@ const RULES: [Rule; 35] = [
     bodies::bodies,
     bodies::points,
     bodies::ends,
+    bodies::held,
     bodies::places_above_bed,
     ends_above_bed,
     motion_numbers,

@@ -8,6 +8,8 @@ use nalgebra::SymmetricEigen;
 
 /// Largest pitch of a pose [deg]: beyond it roll and yaw lose their meaning.
 const STEEPEST: f64 = 89.0;
+/// Gravity below which nothing falls that is not held [m/s²].
+const WEIGHTLESS: f64 = 1.0e-6;
 /// Most lines, bodies and points together that a scene may have of each.
 const MOST: usize = 1000;
 
@@ -258,6 +260,50 @@ pub(super) fn ends(scene: &Scene, file: &str) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// Lines that meet at free bodies and points need something that holds them: an end that is fixed or driven, or a body with a stiffness of its own.
+pub(super) fn held(scene: &Scene, file: &str) -> Result<(), Error> {
+    if scene.environment.gravity < WEIGHTLESS {
+        return Ok(());
+    }
+    let name = |on: &Option<Mount>| on.as_ref().filter(|on| scene.is_on_free(Some(on))).map(|on| on.name().to_owned());
+    let ends: Vec<[Option<String>; 2]> =
+        scene.lines.iter().map(|line| [name(&line.fairlead_on), name(&line.anchor_on)]).collect();
+    let mut safe: Vec<String> =
+        scene.bodies.iter().filter(|body| body.stiffness.is_some()).map(|body| body.name.clone()).collect();
+    for pair in &ends {
+        if let [Some(free), None] | [None, Some(free)] = pair {
+            safe.push(free.clone());
+        }
+    }
+    // Whatever a line joins with what is held is held.
+    let mut before = usize::MAX;
+    while before != safe.len() {
+        before = safe.len();
+        for pair in &ends {
+            if let [Some(one), Some(other)] = pair {
+                match (safe.contains(one), safe.contains(other)) {
+                    (true, false) => safe.push(other.clone()),
+                    (false, true) => safe.push(one.clone()),
+                    _ => {}
+                }
+            }
+        }
+    }
+    let loose = ends.iter().position(|pair| matches!(pair, [Some(one), Some(_)] if !safe.contains(one)));
+    match loose {
+        Some(index) => {
+            let value = format!(
+                "a line between {:?} and {:?}",
+                ends[index][0].as_deref().unwrap_or(""),
+                ends[index][1].as_deref().unwrap_or("")
+            );
+            let allowed = "nothing holds what these are joined with: give one of its lines an end that is fixed or driven, or a body a stiffness";
+            refuse(file, format!("lines[{index}]"), value, allowed)
+        }
+        None => Ok(()),
+    }
 }
 
 /// What a body's sinusoidal motion does to places of it, against the bed: where their sums of amplitudes reach.
