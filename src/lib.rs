@@ -11,12 +11,14 @@ pub mod cli {
     pub mod check;
     pub mod console;
     pub mod convert;
+    pub mod dispatch;
     pub mod interrupt;
     pub mod pack;
     pub mod progress;
     pub mod run;
     pub mod schema;
     pub mod statics;
+    pub mod stop;
 }
 /// Every failure as data, and the only file that words it.
 pub mod error;
@@ -29,9 +31,11 @@ pub mod algebra {
     pub mod dimension;
     pub mod lanes;
     pub mod polynomial;
+    pub mod real;
     pub mod shape;
     pub mod sinusoid;
     pub mod tensor;
+    pub mod triple;
 }
 
 /// What the user said: plain data, read and checked. No nodes, no steps.
@@ -41,18 +45,21 @@ pub mod scene {
     pub mod motion_file;
     pub mod read;
     pub mod state;
+    pub mod text;
     pub mod types;
 }
 
 /// The discrete line: elements and the loads on them. No time steps, no files.
 pub mod rod {
     pub mod awash;
+    pub mod axial;
     pub mod bending;
     pub mod body;
     pub mod catenary;
     pub mod elasticity;
     pub mod element;
     pub mod element_tangent;
+    pub mod ends;
     pub mod friction;
     pub mod grading;
     pub mod hold;
@@ -60,7 +67,9 @@ pub mod rod {
     pub mod line;
     pub mod mesh;
     pub mod morison;
+    pub mod motion;
     pub mod physics;
+    pub mod properties;
     pub mod seabed;
     pub mod state;
     pub mod stretch;
@@ -73,6 +82,7 @@ pub mod sea {
     pub mod clock;
     pub mod current;
     pub mod spectrum;
+    pub mod wave;
     pub mod waves;
 }
 
@@ -92,6 +102,7 @@ pub mod solve {
     pub mod adams_moulton;
     pub mod bow;
     pub mod controller;
+    pub mod counters;
     pub mod departure;
     pub mod esdirk;
     pub mod fleet;
@@ -109,6 +120,7 @@ pub mod solve {
     pub mod rounding;
     pub mod scale;
     pub mod scheme;
+    pub mod schemes;
     pub mod search;
     pub mod simulation;
     pub mod snapshot;

@@ -8,7 +8,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
 use crate::error::Error;
-use crate::scene::read::{decode, read_bytes};
+use crate::scene::text::{decode, read_bytes};
 use crate::scene::types::{Environment, Triple};
 use std::path::Path;
 

@@ -7,13 +7,12 @@ mod setting;
 use crate::error::{Error, Problem};
 use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
 use crate::scene::state::LineState;
+use crate::scene::text::{char_start, decode, line_and_column, read_bytes};
 use crate::scene::types::{Motion, Scene, Scheme};
 use crate::scene::{check, motion_file};
 use place::{Place, Step, shortened};
 use serde_json::Value;
 use setting::Applied;
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -143,36 +142,11 @@ pub fn schema() -> Value {
     schemars::schema_for!(Scene).to_value()
 }
 
-/// The bytes of a file; `what` says what the file should be. Larger files than `largest` bytes are refused.
-pub(super) fn read_bytes(path: &Path, largest: u64, what: &str) -> Result<Vec<u8>, Error> {
-    let failed = |reason: String| Error::File { path: path.display().to_string(), reason };
-    let file = File::open(path).map_err(|error| failed(error.to_string()))?;
-    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        return Err(failed(format!("this is a directory, not {what}")));
-    }
-    let mut bytes = Vec::new();
-    file.take(largest + 1).read_to_end(&mut bytes).map_err(|error| failed(error.to_string()))?;
-    if bytes.len() as u64 > largest {
-        return Err(failed(format!("larger than {} MB: this is not {what}", largest >> 20)));
-    }
-    Ok(bytes)
-}
-
-/// The text of a file, which must be UTF-8.
-pub(super) fn decode(bytes: Vec<u8>, file: &str) -> Result<String, Error> {
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let start = String::from_utf8_lossy(&error.as_bytes()[..valid]);
-        let (line, column) = place::line_and_column(&start, start.len());
-        Error::Json { file: file.into(), line, column, place: String::new(), problem: Problem::NotUtf8.into() }
-    })
-}
-
 /// JSON text as a tree.
 fn json(text: &str, file: &str) -> Result<Value, Error> {
     let start = text.trim_start();
     let at = |offset: usize, place: Place, problem: Problem| {
-        let (line, column) = place::line_and_column(text, offset);
+        let (line, column) = line_and_column(text, offset);
         Error::Json { file: file.into(), line, column, place: place.to_string(), problem: problem.into() }
     };
     if start.is_empty() {
@@ -191,7 +165,7 @@ fn json(text: &str, file: &str) -> Result<Value, Error> {
         None => Ok(value),
         Some(twice) => {
             let key = twice.place.0.last().map(|step| Place(vec![step.clone()]).to_string()).unwrap_or_default();
-            let first_line = place::line_and_column(text, twice.first).0;
+            let first_line = line_and_column(text, twice.first).0;
             Err(at(twice.second, twice.place, Problem::DuplicateKey { key, first_line }))
         }
     }
@@ -199,7 +173,7 @@ fn json(text: &str, file: &str) -> Result<Value, Error> {
 
 /// What breaks the rules of JSON at a byte of the text.
 fn syntax(error: &serde_json::Error, text: &str, offset: usize) -> Problem {
-    let offset = place::char_start(text, offset);
+    let offset = char_start(text, offset);
     let ends = |c: char| c.is_whitespace() || "{}[],:\"".contains(c);
     let start = text[..offset].rfind(ends).map_or(0, |found| found + text[found..].chars().next().map_or(1, char::len_utf8));
     let word = text[start..].split(ends).next().unwrap_or_default();
@@ -253,7 +227,7 @@ impl Source<'_> {
             };
         }
         let start = self.text.len() - self.text.trim_start().len();
-        let (line, column) = place::line_and_column(self.text, offset.unwrap_or(start));
+        let (line, column) = line_and_column(self.text, offset.unwrap_or(start));
         Error::Json { file: self.file.into(), line, column, place: place.to_string(), problem: problem.into() }
     }
 }

@@ -6,8 +6,8 @@
 
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
 use crate::algebra::definite::is_positive_definite;
-use crate::rod::element::{Motion, Weights};
 use crate::rod::line::Line;
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::memory::{Memory, Shelf};
 use crate::solve::search;

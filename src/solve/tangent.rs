@@ -5,8 +5,8 @@
 //! changes; the choice of steps is not differentiated.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::rod::element::Weights;
 use crate::rod::line::Line;
+use crate::rod::motion::Weights;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::newton::{Stall, motion};
 use crate::solve::unknowns::Unknowns;

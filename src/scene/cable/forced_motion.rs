@@ -8,7 +8,7 @@ use crate::error::{DeckProblem, Error};
 use crate::scene::cable::columns::number;
 use crate::scene::cable::{Deck, turned};
 use crate::scene::motion_file::Table;
-use crate::scene::read::{decode, read_bytes};
+use crate::scene::text::{decode, read_bytes};
 use crate::scene::types::{Environment, Triple};
 use std::f64::consts::PI;
 use std::path::Path;

@@ -3,6 +3,7 @@
 //! serde knows the place of a wrong value but not its line once `--set` has been at work; this scan of the text finds it.
 //! It also sees what serde_json lets pass: a key that stands twice in one object.
 
+use crate::scene::text::char_start;
 use std::collections::HashMap;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -74,18 +75,6 @@ pub fn shortened(text: &str) -> String {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_string(),
     }
-}
-
-/// The byte at or before `offset` with which a character of the text begins.
-pub fn char_start(text: &str, offset: usize) -> usize {
-    (0..=offset.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
-}
-
-/// Line and column, both from 1, of a byte of the text; the column counts characters.
-pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
-    let before = &text[..char_start(text, offset)];
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
 /// Byte where the member or list entry at `place` begins in the text.
@@ -213,6 +202,7 @@ fn string_end(bytes: &[u8], start: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::text::line_and_column;
 
     const TEXT: &str = "{\n \"ä\": [1, {\"b]\": \"x,}\"}],\n \"c.d\": 2}";
 
