@@ -108,6 +108,7 @@ pub mod solve {
     pub mod fleet;
     pub mod generalized_alpha;
     pub mod line_state;
+    pub mod linearised;
     pub mod memory;
     pub mod meshing;
     pub mod mixed;

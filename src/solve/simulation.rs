@@ -14,6 +14,7 @@ use crate::scene::types::{Scene, Scheme};
 use crate::solve::controller::{self, Controller, Demands, Failure};
 pub use crate::solve::counters::{Counters, LastStep, StaticsReport};
 use crate::solve::line_state;
+pub use crate::solve::linearised::Linearised;
 use crate::solve::meshing;
 use crate::solve::mixed::{Advance, Mixed, Velocity};
 use crate::solve::motion::{Kinematics, Path};
@@ -34,7 +35,6 @@ use nalgebra::Vector3;
 
 mod derivative;
 mod rollback;
-pub use derivative::Linearised;
 
 /// One mooring line through statics and time.
 pub struct Simulation {
