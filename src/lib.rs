@@ -11,6 +11,7 @@ pub mod cli {
     pub mod check;
     pub mod console;
     pub mod convert;
+    pub mod dispatch;
     pub mod fit;
     pub mod interrupt;
     pub mod offsets;
@@ -19,6 +20,7 @@ pub mod cli {
     pub mod run;
     pub mod schema;
     pub mod statics;
+    pub mod stop;
 }
 /// Every failure as data, and the only file that words it.
 pub mod error;
@@ -31,11 +33,13 @@ pub mod algebra {
     pub mod dimension;
     pub mod lanes;
     pub mod polynomial;
+    pub mod real;
     pub mod rotation;
     pub mod shape;
     pub mod sinusoid;
     pub mod spline;
     pub mod tensor;
+    pub mod triple;
 }
 
 /// What the user said: plain data, read and checked. No nodes, no steps.
@@ -55,6 +59,7 @@ pub mod scene {
 /// The discrete line: elements and the loads on them. No time steps, no files.
 pub mod rod {
     pub mod awash;
+    pub mod axial;
     pub mod bending;
     pub mod body;
     pub mod catenary;
@@ -62,6 +67,7 @@ pub mod rod {
     pub mod elasticity;
     pub mod element;
     pub mod element_tangent;
+    pub mod ends;
     pub mod friction;
     pub mod grading;
     pub mod hold;
@@ -69,7 +75,9 @@ pub mod rod {
     pub mod line;
     pub mod mesh;
     pub mod morison;
+    pub mod motion;
     pub mod physics;
+    pub mod properties;
     pub mod rigid;
     pub mod seabed;
     pub mod state;
@@ -84,6 +92,7 @@ pub mod sea {
     pub mod clock;
     pub mod current;
     pub mod spectrum;
+    pub mod wave;
     pub mod waves;
 }
 
@@ -104,12 +113,14 @@ pub mod solve {
     pub mod bow;
     pub mod condensed;
     pub mod controller;
+    pub mod counters;
     pub mod departure;
     pub mod esdirk;
     pub mod fleet;
     pub mod generalized_alpha;
     pub mod group;
     pub mod line_state;
+    pub mod linearised;
     pub mod loads;
     pub mod memory;
     pub mod meshing;
@@ -128,6 +139,7 @@ pub mod solve {
     pub mod rounding;
     pub mod scale;
     pub mod scheme;
+    pub mod schemes;
     pub mod search;
     pub mod simulation;
     pub mod snapshot;

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    moorline::cli::arguments::main(std::env::args_os())
+    moorline::cli::dispatch::main(std::env::args_os())
 }

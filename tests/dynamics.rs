@@ -4,10 +4,10 @@
 mod support;
 
 use moorline::algebra::shape::{GAUSS3, SHAPES3, Shape};
-use moorline::rod::element::Ends;
+use moorline::rod::ends::Ends;
 use moorline::rod::line::Line;
-use moorline::rod::mesh::Properties;
 use moorline::rod::physics::Surroundings;
+use moorline::rod::properties::Properties;
 use moorline::rod::state::{Field, State};
 use moorline::scene::motion_file::Table;
 use moorline::scene::types::{CurrentPoint, Scheme};

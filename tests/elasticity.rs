@@ -4,9 +4,9 @@ mod support;
 
 use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::rod::elasticity::{Elasticity, Pressures};
-use moorline::rod::element::{Motion, Weights};
 use moorline::rod::line::Supports;
 use moorline::rod::mesh::Mesh;
+use moorline::rod::motion::{Motion, Weights};
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::state::State;
 use moorline::scene::read;

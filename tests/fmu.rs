@@ -172,7 +172,9 @@ fn moored(name: &str, script: &str, sets: &[&str]) {
     let done = |command: &mut Command| run(command, name).unwrap_or_else(|message| panic!("{message}"));
     let mut running = program();
     running.arg("run").arg(&scene).args(["--quiet", "--output"]).arg(&folder);
-    sets.iter().for_each(|set| drop(running.args(["--set", set])));
+    for set in sets {
+        running.args(["--set", set]);
+    }
     done(&mut running);
     done(program().arg("pack").arg(&scene).arg("--output").arg(&packed));
     let file = FilePath::new(env!("CARGO_MANIFEST_DIR")).join(script);

@@ -3,8 +3,9 @@
 mod support;
 
 use moorline::rod::friction::Friction;
-use moorline::rod::mesh::{Mesh, Properties};
+use moorline::rod::mesh::Mesh;
 use moorline::rod::physics::Surroundings;
+use moorline::rod::properties::Properties;
 use moorline::rod::state::Field;
 use moorline::rod::touching::Ground;
 use moorline::scene::read::{self, Loaded};

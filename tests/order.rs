@@ -5,8 +5,8 @@
 
 mod support;
 
-use moorline::rod::mesh::Properties;
 use moorline::rod::physics::Surroundings;
+use moorline::rod::properties::Properties;
 use moorline::rod::state::{Field, State};
 use moorline::scene::types::Scheme;
 use moorline::solve::motion::Path;

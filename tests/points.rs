@@ -6,8 +6,9 @@ mod support;
 
 use moorline::rod::body::Body;
 use moorline::rod::hold::Hold;
-use moorline::rod::mesh::{Mesh, Part, Properties};
+use moorline::rod::mesh::{Mesh, Part};
 use moorline::rod::morison::Sea;
+use moorline::rod::properties::Properties;
 use moorline::rod::state::State;
 use moorline::scene::read::parse;
 use moorline::scene::types::Scheme;

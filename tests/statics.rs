@@ -5,8 +5,9 @@ mod support;
 
 use moorline::algebra::shape::{GAUSS3, Shape};
 use moorline::rod::awash::Surface;
-use moorline::rod::mesh::{Mesh, Properties};
+use moorline::rod::mesh::Mesh;
 use moorline::rod::physics::Surroundings;
+use moorline::rod::properties::Properties;
 use moorline::rod::state::{Field, State};
 use moorline::scene::read::parse;
 use moorline::scene::types::{CurrentPoint, Stretch};

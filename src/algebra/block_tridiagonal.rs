@@ -8,7 +8,8 @@
 //! Two neighbours i, i+1 may be *tied*: the first half of their unknowns is the same (two slopes at one position). Then the
 //! second half of block i is condensed into block i+1, and the same two recursions hold with other E, G, H. The middle lies behind all ties.
 
-use crate::algebra::lanes::{Lanes, MOST_LANES, Real};
+use crate::algebra::lanes::Lanes;
+use crate::algebra::real::{MOST_LANES, Real};
 use nalgebra::{SMatrix, SVector};
 use pulp::{Arch, Simd, WithSimd};
 

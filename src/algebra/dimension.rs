@@ -2,7 +2,7 @@
 //!
 //! The component across that plane has a type of its own, so that a planar loop holds no instruction for it.
 
-use crate::algebra::lanes::{Real, Triple};
+use crate::algebra::real::{Across, Real};
 use std::fmt::Debug;
 
 /// Space or plane.
@@ -31,115 +31,6 @@ impl Dimension for Planar {
     const PLANAR: bool = true;
 }
 
-/// The second component of a vector: a number, or nothing.
-pub trait Across<F: Real>: Copy + Debug {
-    /// The same number in every lane.
-    fn across(cpu: F::Cpu, x: f64) -> Self;
-    /// Consecutive numbers from place `at` of a slice.
-    fn read(cpu: F::Cpu, from: &[f64], at: usize) -> Self;
-    /// Of a number.
-    fn of(x: F) -> Self;
-    /// Writes to consecutive numbers from place `at` of a slice; nothing leaves them as they are.
-    fn write(self, to: &mut [f64], at: usize);
-    /// Adds to consecutive numbers from place `at` of a slice.
-    fn write_more(self, cpu: F::Cpu, to: &mut [f64], at: usize);
-    /// column + self·a: the second column of a matrix to which a bᵀ is added, self being b's second component.
-    fn outer(self, a: Triple<F>, column: Triple<F>) -> Triple<F>;
-    /// The number; zero for nothing.
-    fn value(self, cpu: F::Cpu) -> F;
-    /// Sum of all lanes.
-    fn sum_up(self) -> f64;
-    /// self + other.
-    fn plus(self, other: Self) -> Self;
-    /// self - other.
-    fn minus(self, other: Self) -> Self;
-    /// -self.
-    fn negative(self) -> Self;
-    /// self·factor.
-    fn times(self, factor: F) -> Self;
-    /// self·factor.
-    fn scale(self, factor: f64) -> Self;
-    /// self·factor + term.
-    fn times_plus(self, factor: F, term: Self) -> Self;
-    /// self·factor + term.
-    fn scaled_plus(self, factor: f64, term: Self) -> Self;
-    /// self·other + term.
-    fn product(self, other: Self, term: F) -> F;
-    /// self·x + term.
-    fn along(self, x: f64, term: F) -> F;
-}
-
-impl<F: Real> Across<F> for F {
-    #[inline(always)]
-    fn across(cpu: F::Cpu, x: f64) -> Self {
-        F::splat(cpu, x)
-    }
-    #[inline(always)]
-    fn read(cpu: F::Cpu, from: &[f64], at: usize) -> Self {
-        F::load(cpu, from, at)
-    }
-    #[inline(always)]
-    fn of(x: F) -> Self {
-        x
-    }
-    #[inline(always)]
-    fn write(self, to: &mut [f64], at: usize) {
-        Real::store(self, to, at);
-    }
-    #[inline(always)]
-    fn write_more(self, cpu: F::Cpu, to: &mut [f64], at: usize) {
-        Real::add_to(self, cpu, to, at);
-    }
-    #[inline(always)]
-    fn outer(self, a: Triple<F>, column: Triple<F>) -> Triple<F> {
-        a.mul_add(self, column)
-    }
-    #[inline(always)]
-    fn value(self, _: F::Cpu) -> F {
-        self
-    }
-    #[inline(always)]
-    fn sum_up(self) -> f64 {
-        Real::total(self)
-    }
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        self + other
-    }
-    #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        self - other
-    }
-    #[inline(always)]
-    fn negative(self) -> Self {
-        -self
-    }
-    #[inline(always)]
-    fn times(self, factor: F) -> Self {
-        self * factor
-    }
-    #[inline(always)]
-    fn scale(self, factor: f64) -> Self {
-        self * factor
-    }
-    #[inline(always)]
-    fn times_plus(self, factor: F, term: Self) -> Self {
-        Real::mul_add(self, factor, term)
-    }
-    #[inline(always)]
-    fn scaled_plus(self, factor: f64, term: Self) -> Self {
-        Real::scale_add(self, factor, term)
-    }
-    #[inline(always)]
-    fn product(self, other: Self, term: F) -> F {
-        Real::mul_add(self, other, term)
-    }
-    #[inline(always)]
-    fn along(self, x: f64, term: F) -> F {
-        Real::scale_add(self, x, term)
-    }
-}
-
 /// No component.
 #[derive(Clone, Copy, Debug)]
 pub struct Nothing;
@@ -162,8 +53,12 @@ impl<F: Real> Across<F> for Nothing {
     #[inline(always)]
     fn write_more(self, _: F::Cpu, _: &mut [f64], _: usize) {}
     #[inline(always)]
-    fn outer(self, _: Triple<F>, column: Triple<F>) -> Triple<F> {
-        column
+    fn onto(self, _: F, term: F) -> F {
+        term
+    }
+    #[inline(always)]
+    fn onto_across(self, _: Self, _: Self) -> Self {
+        Nothing
     }
     #[inline(always)]
     fn value(self, cpu: F::Cpu) -> F {

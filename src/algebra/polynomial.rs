@@ -1,6 +1,6 @@
 //! Where a cubic on [0, 1] is positive.
 
-use crate::algebra::lanes::Real;
+use crate::algebra::real::Real;
 
 /// A part of [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]

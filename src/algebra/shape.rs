@@ -3,7 +3,7 @@
 //! r(x) = N0 r_i + N1 p_i + N2 r_j + N3 p_j with p = dr/ds, s = L x:
 //! N = [1 - 3x² + 2x³, L(x - 2x² + x³), 3x² - 2x³, L(x³ - x²)].
 
-use crate::algebra::lanes::Real;
+use crate::algebra::real::Real;
 
 /// Shape functions and their first and second derivatives by arc length, for unit length: multiply entry k of the
 /// value by L^(k odd), of the slope by L^(k odd) / L, of the curvature by L^(k odd) / L².

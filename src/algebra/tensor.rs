@@ -2,8 +2,9 @@
 //!
 //! Written without closures: those are compiled for any processor, and would cost a call for every instruction of a wider one.
 
-use crate::algebra::dimension::Across;
-use crate::algebra::lanes::{Real, Triple};
+use crate::algebra::real::Across;
+use crate::algebra::real::Real;
+use crate::algebra::triple::Triple;
 use nalgebra::Matrix3;
 
 /// A 3×3 matrix in every lane, by columns.
@@ -22,7 +23,7 @@ impl<F: Real> Tensor<F> {
     #[inline(always)]
     pub fn add_outer(self, a: Triple<F>, b: Triple<F>) -> Self {
         let [x, y, z] = self.0;
-        Tensor([a.mul_add(b.x, x), b.y.outer(a, y), a.mul_add(b.z, z)])
+        Tensor([a.mul_add(b.x, x), y.add_times_across(a, b.y), a.mul_add(b.z, z)])
     }
 
     /// self·factor + term.

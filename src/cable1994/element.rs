@@ -13,7 +13,7 @@
 use crate::algebra::shape::Shape;
 use crate::cable1994::mat::{self, Push};
 use crate::cable1994::shapes::{Integrals, Triad};
-use crate::rod::mesh::Properties;
+use crate::rod::properties::Properties;
 use crate::rod::seabed::{Plane, Resistance};
 use crate::rod::state::Field;
 use crate::sea::current::Current;

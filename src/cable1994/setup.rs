@@ -30,7 +30,7 @@ pub fn line(scene: &Scene, line: &Line, mesh: &Mesh, supports: Supports) -> Mixe
 
 /// What is in the step of a line and why.
 pub fn decisions(scene: &Scene, mesh: &Mesh, step: f64) -> Vec<Decision> {
-    let any = |f: fn(&crate::rod::mesh::Properties) -> bool| mesh.sections.iter().any(f);
+    let any = |f: fn(&crate::rod::properties::Properties) -> bool| mesh.sections.iter().any(f);
     let decide = |physics, on, yes: &str, no: &str| Decision { physics, on, reason: if on { yes } else { no }.to_string() };
     let method = format!("the 1994 report's mixed element, one linear solve per step of {step} s at most, no error control");
     let current = !Current::new(&scene.environment.current).is_still();

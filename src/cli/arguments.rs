@@ -1,12 +1,9 @@
-//! What was typed, and which command answers it. One file per command stands beside this one.
+//! What can be typed: the commands and their arguments.
 
-use crate::cli::{check, console, convert, fit, pack, run, schema, statics};
 use crate::error::Error;
 use crate::scene::read::{self, Loaded};
 use clap::{Args, Parser, Subcommand};
-use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 const AFTER_HELP: &str = "\
 Without a command, moorline runs the built-in case of Lindahl & Sjöberg (1983) and writes the results into `out`.
@@ -16,15 +13,18 @@ Exit codes: 0 done; 2 bad input; 3 no convergence; 130 stopped with Ctrl-C.";
 /// Mooring lines: static equilibrium and dynamics, with a report to look at.
 #[derive(Debug, Parser)]
 #[command(name = "moorline", version, after_help = AFTER_HELP, args_conflicts_with_subcommands = true)]
-struct Arguments {
+pub struct Arguments {
+    /// How to run the built-in case, where there is no command.
     #[command(flatten)]
-    run: RunOptions,
+    pub run: RunOptions,
+    /// The command, if there is one.
     #[command(subcommand)]
-    command: Option<Command>,
+    pub command: Option<Command>,
 }
 
+/// A command and its arguments.
 #[derive(Debug, Subcommand)]
-enum Command {
+pub enum Command {
     /// Statics, then dynamics; writes timeseries.csv, nodes.csv, summary.json and report.html
     Run(RunArguments),
     /// Static equilibrium: end forces, tensions, touchdown, node table
@@ -144,44 +144,6 @@ pub struct ConvertArguments {
     pub input: PathBuf,
     /// CABLE file or JSON scene
     pub output: PathBuf,
-}
-
-/// Why a command ended without doing its work.
-#[derive(Debug)]
-pub enum Stop {
-    /// The calculation or a file failed.
-    Failed(Error),
-}
-
-impl From<Error> for Stop {
-    fn from(error: Error) -> Stop {
-        Stop::Failed(error)
-    }
-}
-
-/// Runs the command line and turns its outcome into the exit code.
-pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
-        Err(answer) => return console::usage(&answer),
-    };
-    let outcome = match arguments.command {
-        None => run::run(&RunArguments { scene: None, options: arguments.run }),
-        Some(Command::Run(arguments)) => run::run(&arguments),
-        Some(Command::Statics(arguments)) => statics::statics(&arguments),
-        Some(Command::Fit(arguments)) => fit::fit(&arguments),
-        Some(Command::Check(arguments)) => check::check(&arguments),
-        Some(Command::Schema) => schema::schema(),
-        Some(Command::Pack(arguments)) => pack::pack(&arguments),
-        Some(Command::Convert(arguments)) => convert::convert(&arguments),
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(Stop::Failed(error)) => {
-            console::error(&error.to_string());
-            ExitCode::from(error.exit_code())
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! `moorline check`: what a run of the scene would model, leave out and cost. Nothing is solved.
 
-use crate::cli::arguments::{SceneArguments, Stop};
+use crate::cli::arguments::SceneArguments;
 use crate::cli::console::{self, on_terminal};
+use crate::cli::stop::Stop;
 use crate::report::schedule::Schedule;
 use crate::report::units::{count, sim_time, wall_time};
 use crate::scene::read::Loaded;

@@ -1,7 +1,8 @@
 //! `moorline convert`: JSON scene to CABLE file and back, with a word on what the other format cannot hold.
 
-use crate::cli::arguments::{ConvertArguments, Stop};
+use crate::cli::arguments::ConvertArguments;
 use crate::cli::console::{self, on_terminal};
+use crate::cli::stop::Stop;
 use crate::error::Error;
 use crate::report::tables;
 use crate::scene::cable::{Deck, Job, MotionKind, forced_motion, from_scene, turned_back, writing};

@@ -3,8 +3,9 @@
 //! The range from a quarter to four times the present value (or as told) is searched in steps; where the result passes the wanted value the place is found by the
 //! Illinois variant of the rule of false position. No such place, or more than one, is said.
 
-use crate::cli::arguments::{FitArguments, Stop};
+use crate::cli::arguments::FitArguments;
 use crate::cli::console::{self, on_terminal};
+use crate::cli::stop::Stop;
 use crate::error::{Error, among};
 use crate::report::tables;
 use crate::scene::read::{self, Loaded};

@@ -1,6 +1,7 @@
 //! `moorline pack`: a scene as an FMU. Needs no compiler: the libraries lie beside the program.
 
-use crate::cli::arguments::{PackArguments, Stop};
+use crate::cli::arguments::PackArguments;
+use crate::cli::stop::Stop;
 use crate::fmi::pack::{self, Libraries, Naming};
 use crate::scene::read;
 

@@ -1,10 +1,11 @@
 //! `moorline run`: statics, then dynamics in output steps, with every row on disk as soon as it is known.
 
-use crate::cli::arguments::{RunArguments, Stop};
+use crate::cli::arguments::RunArguments;
 use crate::cli::console::{self, on_terminal};
 use crate::cli::interrupt::Interrupt;
 use crate::cli::pack::BUILT_IN;
 use crate::cli::progress::Progress;
+use crate::cli::stop::Stop;
 use crate::error::Error;
 use crate::fmi::pack::{self, Libraries, Naming};
 use crate::report::cable_files::CableFiles;

@@ -1,6 +1,7 @@
 //! `moorline schema`: the JSON Schema of the scene.
 
-use crate::cli::{arguments::Stop, console};
+use crate::cli::console;
+use crate::cli::stop::Stop;
 use crate::scene::read;
 
 /// Prints the schema.

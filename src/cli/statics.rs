@@ -1,8 +1,9 @@
 //! `moorline statics`: the equilibrium of every line, from which `run` starts.
 
-use crate::cli::arguments::{StaticsArguments, Stop};
+use crate::cli::arguments::StaticsArguments;
 use crate::cli::console::{self, on_terminal};
 use crate::cli::offsets;
+use crate::cli::stop::Stop;
 use crate::error::Error;
 use crate::report::record::touchdown;
 use crate::report::units::{ForceUnit, count};

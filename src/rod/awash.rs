@@ -4,14 +4,18 @@
 //! element: they are looked at side by side, as the loop does with elements.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple};
+use crate::algebra::lanes::Lanes;
 use crate::algebra::polynomial::{Cubic, Interval};
+use crate::algebra::real::{MOST_LANES, Real};
 use crate::algebra::shape::{self, GAUSS3, GAUSS4, GaussPoint};
 use crate::algebra::tensor::Tensor;
-use crate::rod::element::{Ends, Motion, Table, Weights};
+use crate::algebra::triple::Triple;
+use crate::rod::element::Table;
 use crate::rod::element_tangent::ElementTangent;
+use crate::rod::ends::Ends;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::stretch::Direction;
 use crate::rod::surface::{self, MOST_PARTS};
 use crate::sea::clock::Clock;

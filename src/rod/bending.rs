@@ -7,7 +7,8 @@
 //! r″ curvature vector by unstretched arc length [1/m], EI [N·m²]. Exact for an inextensible rod; for a stretched one the
 //! difference is of the order of the strain. The tangent EI is constant.
 
-use crate::algebra::lanes::{Real, Triple};
+use crate::algebra::real::Real;
+use crate::algebra::triple::Triple;
 
 /// Whether the line bends with resistance.
 pub trait Bending: Copy + Send + Sync + 'static {

@@ -11,9 +11,9 @@
 //! pushes as it does on a line (`seabed`), with a stiffness in N/m. As for lines, the tangent leaves out that waves change from place
 //! to place.
 
-use crate::algebra::lanes::{Triple, length};
-use crate::rod::element::{Motion, Weights};
+use crate::algebra::triple::{Triple, length};
 use crate::rod::morison::{PointMotion, Water};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::seabed::{Plane, Resistance, projector};
 use crate::rod::stretch::Direction;
 use nalgebra::{Matrix3, Vector3};

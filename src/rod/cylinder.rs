@@ -8,7 +8,7 @@
 //! Ω volume below the surface, by fibres along the axis, each cut by the surface plane, so that draught and waterplane are exact as long as the
 //! surface cuts the mantle; φ wet share of a section; q = V - ṙ, V velocity and V̇ acceleration of the water, ρA V̇ Froude & Krylov's force.
 
-use crate::algebra::lanes::Triple;
+use crate::algebra::triple::Triple;
 use crate::rod::morison::{PointMotion, Sea, Water};
 use crate::rod::stretch::Direction;
 use crate::sea::clock::Clock;

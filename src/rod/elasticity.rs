@@ -10,9 +10,9 @@
 //! [m²], p_o, p_i pressures [Pa] of the water and of the fluid inside, p_t the latter at the height z_t of the fairlead in the
 //! scene. The tension of the wall is T - p_o A_o + p_i A_i. Beyond its last point a table goes on with its last slope.
 
-use crate::algebra::lanes::{MOST_LANES, Real, padded};
-use crate::rod::mesh::{Mesh, Properties};
-use crate::rod::stretch::Axial;
+use crate::algebra::real::{MOST_LANES, Real, padded};
+use crate::rod::axial::Axial;
+use crate::rod::properties::Properties;
 use crate::scene::types::{Environment, LineType};
 
 /// What the tension of a section depends on besides EA.
@@ -126,22 +126,22 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// The curves of a mesh.
-    pub fn new(mesh: &Mesh) -> Curves {
-        let count = mesh.elements.len();
+    /// The curves of elements, given what the tension of each depends on.
+    pub fn new(elements: &[(&Elasticity, &Properties)]) -> Curves {
+        let count = elements.len();
         let row = |value: &dyn Fn(usize) -> f64| {
             let mut row = vec![0.0; padded(count + 1) + MOST_LANES];
             (0..count).for_each(|e| row[e] = value(e));
             row
         };
-        let slopes: Vec<Vec<[f64; 2]>> = (0..count).map(|e| slopes(mesh.elasticity_of(e), mesh.properties_of(e))).collect();
+        let slopes: Vec<Vec<[f64; 2]>> = elements.iter().map(|(elasticity, properties)| slopes(elasticity, properties)).collect();
         let most = slopes.iter().map(Vec::len).max().unwrap_or(1);
         let knee = |k: usize| {
             let at = |e: usize| slopes[e].get(k).map_or(0.0, |[strain, _]| *strain);
             let change = |e: usize| slopes[e].get(k).map_or(0.0, |[_, slope]| slope - slopes[e][k - 1][1]);
             [row(&at), row(&change)]
         };
-        let pressure = |of: fn(&Pressures) -> f64| row(&|e| mesh.elasticity_of(e).straining().map_or(0.0, of));
+        let pressure = |of: fn(&Pressures) -> f64| row(&|e| elements[e].0.straining().map_or(0.0, of));
         Curves {
             first_slope: row(&|e| slopes[e][0][1]),
             knees: (1..most).map(knee).collect(),

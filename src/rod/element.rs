@@ -7,50 +7,27 @@
 //! R residual [N] (positions) and [N·m] (slopes): the force that must be applied from outside for the motion to be as it is.
 //! N_k Hermite shape functions, X load per length [N/m], n axial force [N], f force of the water [N/m].
 
-use crate::algebra::dimension::{Across, Dimension, Spatial};
-use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
-use crate::algebra::polynomial::Cubic;
+use crate::algebra::dimension::{Dimension, Spatial};
+use crate::algebra::lanes::Lanes;
+use crate::algebra::real::Across;
+use crate::algebra::real::{MOST_LANES, Real, padded};
 use crate::algebra::shape::{GAUSS3, SHAPES3};
+use crate::algebra::triple::Triple;
+use crate::rod::axial::Axial;
 use crate::rod::bending::Bending;
 use crate::rod::elasticity::Curves;
+use crate::rod::ends::Ends;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
+use crate::rod::motion::Motion;
 use crate::rod::seabed::Bed;
 use crate::rod::state::COMPONENTS;
 use crate::rod::state::Field;
-use crate::rod::stretch::{Axial, Direction, Stretch};
+use crate::rod::stretch::{Direction, Stretch};
 use crate::sea::clock::Clock;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 use std::marker::PhantomData;
-
-/// The motion at which forces are asked for.
-#[derive(Debug, Clone, Copy)]
-pub struct Motion<'a> {
-    /// When.
-    pub clock: Clock,
-    /// Positions and slopes.
-    pub u: &'a Field,
-    /// Their rates.
-    pub v: &'a Field,
-    /// Their second rates.
-    pub a: &'a Field,
-    /// Places of the bed to which the line holds on by friction.
-    pub holds: &'a Field,
-    /// Rotations from which the rotation vectors of free bodies count.
-    pub frames: &'a [Matrix3<f64>],
-}
-
-/// Weights of the tangent: c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights {
-    /// c_u.
-    pub u: f64,
-    /// c_v.
-    pub v: f64,
-    /// c_a.
-    pub a: f64,
-}
 
 /// A property of an element.
 #[derive(Debug, Clone, Copy)]
@@ -120,7 +97,8 @@ impl Table {
             put(Property::AddedNormal, e, p.added_normal);
             put(Property::AddedTangential, e, p.added_tangential);
         }
-        let curves = if mesh.is_special() { Curves::new(mesh) } else { Curves::default() };
+        let laws = || (0..elements).map(|e| (mesh.elasticity_of(e), mesh.properties_of(e))).collect::<Vec<_>>();
+        let curves = if mesh.is_special() { Curves::new(&laws()) } else { Curves::default() };
         Table { elements, stride, data, curves, processor: Arch::new() }
     }
 
@@ -222,92 +200,6 @@ impl<F: Real> Batch<'_, F> {
             added_tangential: self.get(Property::AddedTangential),
             buoyancy: self.get(Property::Buoyancy),
         }
-    }
-}
-
-/// One vector at each end of an element and its rate by x = s/L: values a, b and slopes times length.
-#[derive(Debug, Clone, Copy)]
-pub struct Ends<F: Real> {
-    a: Triple<F>,
-    da: Triple<F>,
-    b: Triple<F>,
-    db: Triple<F>,
-}
-
-impl Ends<f64> {
-    /// Element `e`, of length `length`.
-    pub fn gather(field: &Field, e: usize, length: f64) -> Ends<f64> {
-        let (at, slope) = (|node| Triple::from(field.position(node)), |node| Triple::from(field.slope(node)) * length);
-        Ends { a: at(e), da: slope(e), b: at(e + 1), db: slope(e + 1) }
-    }
-
-    /// Component along a vector as a cubic.
-    pub fn along(&self, direction: &Vector3<f64>) -> Cubic {
-        Cubic(self.control_values(direction))
-    }
-
-    /// The same in every lane.
-    #[inline(always)]
-    pub fn splat<F: Real>(&self, cpu: F::Cpu) -> Ends<F> {
-        Ends {
-            a: Triple::splat(cpu, &self.a.into()),
-            da: Triple::splat(cpu, &self.da.into()),
-            b: Triple::splat(cpu, &self.b.into()),
-            db: Triple::splat(cpu, &self.db.into()),
-        }
-    }
-
-    /// Height (third component) as a cubic.
-    pub fn height(&self) -> Cubic {
-        Cubic::hermite(self.a.z, self.da.z, self.b.z, self.db.z)
-    }
-}
-
-impl<F: Real> Ends<F> {
-    /// Elements from `e` on, of lengths `length`.
-    #[inline(always)]
-    pub fn load(cpu: F::Cpu, rows: &[&[f64]; COMPONENTS], e: usize, length: F) -> Ends<F> {
-        let [x, y, z, px, py, pz] = rows;
-        Ends {
-            a: Triple::load(cpu, [x, y, z], e),
-            da: Triple::load(cpu, [px, py, pz], e) * length,
-            b: Triple::load(cpu, [x, y, z], e + 1),
-            db: Triple::load(cpu, [px, py, pz], e + 1) * length,
-        }
-    }
-
-    /// Value where the shape functions are `n` (unit length).
-    #[inline(always)]
-    pub fn combine(&self, n: &[f64; 4]) -> Triple<F> {
-        self.a.scale_add(n[0], self.da.scale_add(n[1], self.b.scale_add(n[2], self.db.scale(n[3]))))
-    }
-
-    /// Value where the shape functions are `n` in each lane (unit length).
-    #[inline(always)]
-    pub fn combine_lanes(&self, n: &[F; 4]) -> Triple<F> {
-        self.a.mul_add(n[0], self.da.mul_add(n[1], self.b.mul_add(n[2], self.db * n[3])))
-    }
-
-    /// Bézier control values of the component along a vector: the curve lies between the least and the greatest of them.
-    #[inline(always)]
-    pub fn control_values(&self, direction: &Vector3<f64>) -> [F; 4] {
-        let (first, last) = (self.a.along(direction), self.b.along(direction));
-        let third = 1.0 / 3.0;
-        [first, self.da.along(direction).scale_add(third, first), self.db.along(direction).scale_add(-third, last), last]
-    }
-
-    /// 1 where the element is certainly below the waterline, else 0.
-    #[inline(always)]
-    pub fn wet(&self, waterline: F) -> F {
-        let third = 1.0 / 3.0;
-        let top = self.a.z.max(self.b.z).max(self.da.z.scale_add(third, self.a.z)).max(self.db.z.scale_add(-third, self.b.z));
-        (waterline - top).step()
-    }
-
-    /// End values and end slopes times length: r_i, L p_i, r_j, L p_j.
-    #[inline(always)]
-    pub fn parts(&self) -> [Triple<F>; 4] {
-        [self.a, self.da, self.b, self.db]
     }
 }
 

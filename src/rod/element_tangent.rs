@@ -7,13 +7,17 @@
 //! X_r, X_r′ weighted changes of the load with the motion of a point and with its slope, n_r′ of the axial force with slope and rate.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::algebra::dimension::{Across, Dimension};
-use crate::algebra::lanes::{Lanes, MOST_LANES, Real};
+use crate::algebra::dimension::Dimension;
+use crate::algebra::lanes::Lanes;
+use crate::algebra::real::Across;
+use crate::algebra::real::{MOST_LANES, Real};
 use crate::algebra::shape::{GAUSS3, SHAPES3, Shape};
 use crate::algebra::tensor::Tensor;
 use crate::rod::bending::Bending;
-use crate::rod::element::{Batch, Ends, Motion, Property, Source, Table, Weights, with_curve};
+use crate::rod::element::{Batch, Property, Source, Table, with_curve};
+use crate::rod::ends::Ends;
 use crate::rod::morison::{self, PointMotion, Water};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::stretch::{By, Direction, Stretch};
 use pulp::{NullaryFnOnce, Simd, WithSimd};
 use std::marker::PhantomData;

@@ -12,7 +12,7 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::sinusoid::Sinusoid;
-use crate::rod::element::{Motion, Weights};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::state::Field;
 use nalgebra::{Matrix3, Vector3};
 

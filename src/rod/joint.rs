@@ -7,8 +7,9 @@
 //! t_i, t_j unit tangents on the two sides [-], l lengths of the elements beside the joint [m], κ rotational stiffness [N·m]. The
 //! joint bends as much as a ten-thousandth of the elements beside it.
 
-use crate::algebra::lanes::length;
-use crate::rod::mesh::{Mesh, Properties};
+use crate::algebra::triple::length;
+use crate::rod::mesh::Mesh;
+use crate::rod::properties::Properties;
 use nalgebra::{Matrix3, Vector3};
 
 const STIFFER: f64 = 1.0e4;

@@ -4,16 +4,17 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::dimension::Dimension;
-use crate::algebra::lanes::Triple;
+use crate::algebra::triple::Triple;
 use crate::rod::awash::Surface;
 use crate::rod::bending::Bending;
 use crate::rod::body::Body;
-use crate::rod::element::{self, Motion, Table, Weights};
+use crate::rod::element::{self, Table};
 use crate::rod::element_tangent;
 use crate::rod::hold::Hold;
 use crate::rod::joint;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::seabed::Bed;
 use crate::rod::state::Field;
 use crate::rod::stretch::Stretch;

@@ -13,9 +13,10 @@
 //! The tangent leaves out that the waves change from place to place: in a step of length h this is h² ∂f/∂r against the mass, below
 //! 1e-3 of it for h up to 0.1 s, and Newton's method converges as well without.
 
-use crate::algebra::lanes::{Real, Triple};
+use crate::algebra::real::Real;
 use crate::algebra::tensor::Tensor;
-use crate::rod::element::Weights;
+use crate::algebra::triple::Triple;
+use crate::rod::motion::Weights;
 use crate::rod::stretch::Direction;
 use crate::sea::clock::Clock;
 use crate::sea::current::Current;

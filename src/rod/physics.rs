@@ -245,7 +245,7 @@ pub fn ground(environment: &Environment, mesh: &Mesh) -> Ground {
 /// What is in the step of a line and why.
 pub fn decisions(scene: &Scene, mesh: &Mesh, supports: &Supports) -> Vec<Decision> {
     let decide = |physics, on, yes: &str, no: &str| Decision { physics, on, reason: if on { yes } else { no }.to_string() };
-    let any = |f: fn(&crate::rod::mesh::Properties) -> bool| mesh.sections.iter().any(f);
+    let any = |f: fn(&crate::rod::properties::Properties) -> bool| mesh.sections.iter().any(f);
     let pierced = scene.environment.surface == types::Surface::Pierced;
     vec![
         decide("axial stretch", true, "always", ""),

@@ -12,7 +12,7 @@
 
 use crate::algebra::rotation;
 use crate::rod::cylinder::{BodyState, Cylinder, Load, Surround};
-use crate::rod::element::{Motion, Weights};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::seabed::Plane;
 use crate::scene::bodies;
 use crate::scene::types::Environment;

@@ -14,10 +14,10 @@
 //! R = -k L M p N,   M_ij = ∫ N_i N_j dx
 //! ```
 
-use crate::algebra::lanes::Triple;
-use crate::algebra::lanes::{MOST_LANES, Real, padded};
 use crate::algebra::polynomial::{Cubic, Intervals};
-use crate::rod::element::Ends;
+use crate::algebra::real::{MOST_LANES, Real, padded};
+use crate::algebra::triple::Triple;
+use crate::rod::ends::Ends;
 use crate::scene::types::Environment;
 use nalgebra::{Matrix3, Vector3};
 

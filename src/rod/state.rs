@@ -4,7 +4,8 @@
 //! components 0–2 and slope dr/ds (or its rate) [-] in components 3–5. Nodes run from the anchor to the fairlead. Each component
 //! is padded with zeros, and so is the end, so that elements can be read in batches without a look at where the line ends.
 
-use crate::algebra::lanes::{Lanes, MOST_LANES, Real, padded};
+use crate::algebra::lanes::Lanes;
+use crate::algebra::real::{MOST_LANES, Real, padded};
 use crate::sea::clock::Clock;
 use nalgebra::{Matrix3, Vector3};
 use pulp::{Arch, Simd, WithSimd};

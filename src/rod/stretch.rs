@@ -18,28 +18,13 @@
 //!
 //! f_s a twentieth of the element's weight in air, so that it vanishes with the mesh.
 
-use crate::algebra::lanes::{Real, Triple, length};
+use crate::algebra::real::Real;
 use crate::algebra::tensor::Tensor;
+use crate::algebra::triple::{Triple, length};
+use crate::rod::axial::Axial;
 use crate::rod::elasticity::Elastic;
 use nalgebra::Vector3;
 use std::marker::PhantomData;
-
-/// Axial properties of an element.
-#[derive(Debug, Clone, Copy)]
-pub struct Axial<F> {
-    /// EA [N].
-    pub ea: F,
-    /// Kelvin–Voigt time constant [s].
-    pub damping: F,
-    /// Least tension [N]: 0 where the line goes slack, -∞ where bending stiffness carries compression.
-    pub floor: F,
-    /// f_s, bound of the friction of a slack element [N].
-    pub friction: F,
-    /// Tension at the point without damping [N], where it comes from a table or pressures.
-    pub elastic: F,
-    /// Its change with strain [N].
-    pub stiffness: F,
-}
 
 impl<F: Real> Axial<F> {
     /// Stiffness, EA C and the tension of the geometric part, all zero where the line is slack.

@@ -13,7 +13,7 @@
 
 use crate::algebra::polynomial::{Cubic, Interval};
 use crate::algebra::shape::Shape;
-use crate::rod::element::Ends;
+use crate::rod::ends::Ends;
 use crate::rod::morison::Water;
 use crate::sea::clock::Clock;
 use nalgebra::Vector3;

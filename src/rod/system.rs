@@ -1,7 +1,7 @@
 //! What a time step needs of what moves: the seam between the discrete line, or a network of lines, bodies and points, and the schemes.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::rod::element::{Motion, Weights};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::state::{Field, State};
 use nalgebra::Matrix3x6;
 

@@ -3,12 +3,14 @@
 //! The fast loop knows no more of the bed than its springs under elements that lie on it all along; the rest is added here.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::algebra::lanes::Triple;
 use crate::algebra::polynomial::{Cubic, Interval, Intervals};
 use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, SHAPES3, Shape};
-use crate::rod::element::{Ends, Motion, Table, Weights};
+use crate::algebra::triple::Triple;
+use crate::rod::element::Table;
 use crate::rod::element_tangent::{ElementTangent, PointTangent};
+use crate::rod::ends::Ends;
 use crate::rod::friction::{Contact, Friction};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::seabed::{self, Plane, Resistance, projector};
 use crate::rod::state::Field;
 use crate::rod::stretch::Direction;

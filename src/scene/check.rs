@@ -6,15 +6,15 @@
 
 mod bodies;
 mod cable_1994;
+mod finding;
 
 use crate::error::{Error, Limit, Reach, among};
+use crate::scene::check::finding::{
+    distance, finite, in_type, not_negative, number, positive, refuse, sections, sinusoid, triple,
+};
 use crate::scene::motion_file::Table;
 use crate::scene::types::{Line, LineType, Motion, NormalTangential, ReferenceMotion, Scene, Triple, Waves};
 
-/// Largest size of any number.
-const LARGEST: f64 = 1.0e15;
-/// Smallest number that counts as positive.
-const SMALLEST: f64 = 1.0e-12;
 /// Most elements of a scene.
 const MOST_ELEMENTS: usize = 20_000;
 /// Most components of a sea.
@@ -392,7 +392,7 @@ fn constraints(scene: &Scene, file: &str) -> Result<(), Error> {
             on_the_line(file, &at("s"), constraint.s, line)?;
             if let Some(twin) = line.constraints[..number].iter().position(|other| other.s == constraint.s) {
                 let allowed = format!("constraints[{twin}] is there already; say all that holds one point in one constraint");
-                return refuse(file, at("s"), self::number(constraint.s), allowed);
+                return refuse(file, at("s"), finding::number(constraint.s), allowed);
             }
             two_directions(file, &at("axes"), &constraint.axes)?;
             finite(file, &at("reference"), &constraint.reference.unwrap_or_default())?;
@@ -432,13 +432,6 @@ fn two_directions(file: &str, place: &str, axes: &[Triple; 2]) -> Result<(), Err
         return refuse(file, place, value, "give two directions of some length that are not parallel");
     }
     Ok(())
-}
-
-fn sinusoid(file: &str, place: &str, period: f64, parts: [&Triple; 2], ramp: Option<f64>) -> Result<(), Error> {
-    positive(file, &format!("{place}.period"), period, "s")?;
-    finite(file, &format!("{place}.sine"), parts[0])?;
-    finite(file, &format!("{place}.cosine"), parts[1])?;
-    not_negative(file, &format!("{place}.ramp"), ramp.unwrap_or(0.0), "s; 0 means none")
 }
 
 fn ends_above_bed(scene: &Scene, file: &str) -> Result<(), Error> {
@@ -651,61 +644,6 @@ pub fn motion_table(scene: &Scene, table: &Table, path: &str) -> Vec<String> {
     warnings
 }
 
-/// All sections with their places.
-fn sections(scene: &Scene) -> impl Iterator<Item = (String, &crate::scene::types::Section)> {
-    scene.lines.iter().enumerate().flat_map(|(line, of)| {
-        of.sections.iter().enumerate().map(move |(section, it)| (format!("lines[{line}].sections[{section}]"), it))
-    })
-}
-
-fn in_type(name: &str, key: &str) -> String {
-    format!("line_types.{name}.{key}")
-}
-
-/// Greater than 0; `unit` ends the message and may go on with a remedy.
-fn positive(file: &str, place: &str, value: f64, unit: &str) -> Result<(), Error> {
-    if !(value > 0.0) {
-        return refuse(file, place, number(value), format!("it must be greater than 0 {unit}").trim_end());
-    }
-    if !(SMALLEST..=LARGEST).contains(&value) {
-        return refuse(file, place, number(value), format!("it must lie between {SMALLEST:e} and {LARGEST:e} {unit}").trim_end());
-    }
-    Ok(())
-}
-
-/// 0 or greater; `unit` ends the message.
-fn not_negative(file: &str, place: &str, value: f64, unit: &str) -> Result<(), Error> {
-    if !(value >= 0.0) {
-        return refuse(file, place, number(value), format!("it must be 0 or greater, {unit}").trim_end_matches([',', ' ']));
-    }
-    finite(file, place, &[value])
-}
-
-fn finite(file: &str, place: &str, values: &[f64]) -> Result<(), Error> {
-    match values.iter().find(|value| !(value.abs() <= LARGEST)) {
-        Some(value) => refuse(file, place, number(*value), format!("it must be finite and at most {LARGEST:e} in size")),
-        None => Ok(()),
-    }
-}
-
-fn refuse(file: &str, place: impl Into<String>, value: impl Into<String>, allowed: impl Into<String>) -> Result<(), Error> {
-    Err(Error::Value { file: file.into(), place: place.into(), value: value.into(), allowed: allowed.into() })
-}
-
-/// A number as a user would write it, without the last digits that come from rounding.
-fn number(value: f64) -> String {
-    let value = format!("{value:.11e}").parse().unwrap_or(value);
-    if value == 0.0 || (1.0e-4..1.0e7).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
-}
-
-fn triple(at: Triple) -> String {
-    format!("({}, {}, {})", number(at[0]), number(at[1]), number(at[2]))
-}
-
-fn distance(from: Triple, to: Triple) -> f64 {
-    (to[0] - from[0]).hypot(to[1] - from[1]).hypot(to[2] - from[2])
-}
-
 /// Rounded up to two digits, and to whole metres from 10 m on.
 fn rounded_up(length: f64) -> f64 {
     let step = 10f64.powf((length.log10().floor() - 1.0).clamp(-6.0, 0.0));
@@ -724,13 +662,5 @@ mod tests {
         assert_eq!(rounded_up(1234.5), 1235.0);
         assert_eq!(rounded_up(0.1234), 0.13);
         assert_eq!(rounded_up(3.0), 3.0);
-    }
-
-    #[test]
-    fn numbers_are_written_as_a_user_would() {
-        assert_eq!(number(-130.0), "-130");
-        assert_eq!(number(5.0e8), "5e8");
-        assert_eq!(number(1327.3300774999998), "1327.3300775");
-        assert_eq!(number(f64::NAN), "NaN");
     }
 }

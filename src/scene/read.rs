@@ -8,7 +8,7 @@ use crate::error::{Error, Problem};
 use crate::scene::bodies::{BodyMotion, PointMotion};
 use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
 use crate::scene::state::LineState;
-use crate::scene::text::{decode, read_bytes};
+use crate::scene::text::{char_start, decode, line_and_column, read_bytes};
 use crate::scene::types::{Motion, Scene, Scheme};
 use crate::scene::{check, motion_file, pose_file};
 use place::{Place, Step, shortened};
@@ -195,7 +195,7 @@ pub fn schema() -> Value {
 fn json(text: &str, file: &str) -> Result<Value, Error> {
     let start = text.trim_start();
     let at = |offset: usize, place: Place, problem: Problem| {
-        let (line, column) = place::line_and_column(text, offset);
+        let (line, column) = line_and_column(text, offset);
         Error::Json { file: file.into(), line, column, place: place.to_string(), problem: problem.into() }
     };
     if start.is_empty() {
@@ -214,7 +214,7 @@ fn json(text: &str, file: &str) -> Result<Value, Error> {
         None => Ok(value),
         Some(twice) => {
             let key = twice.place.0.last().map(|step| Place(vec![step.clone()]).to_string()).unwrap_or_default();
-            let first_line = place::line_and_column(text, twice.first).0;
+            let first_line = line_and_column(text, twice.first).0;
             Err(at(twice.second, twice.place, Problem::DuplicateKey { key, first_line }))
         }
     }
@@ -222,7 +222,7 @@ fn json(text: &str, file: &str) -> Result<Value, Error> {
 
 /// What breaks the rules of JSON at a byte of the text.
 fn syntax(error: &serde_json::Error, text: &str, offset: usize) -> Problem {
-    let offset = place::char_start(text, offset);
+    let offset = char_start(text, offset);
     let ends = |c: char| c.is_whitespace() || "{}[],:\"".contains(c);
     let start = text[..offset].rfind(ends).map_or(0, |found| found + text[found..].chars().next().map_or(1, char::len_utf8));
     let word = text[start..].split(ends).next().unwrap_or_default();
@@ -276,7 +276,7 @@ impl Source<'_> {
             };
         }
         let start = self.text.len() - self.text.trim_start().len();
-        let (line, column) = place::line_and_column(self.text, offset.unwrap_or(start));
+        let (line, column) = line_and_column(self.text, offset.unwrap_or(start));
         Error::Json { file: self.file.into(), line, column, place: place.to_string(), problem: problem.into() }
     }
 }

@@ -6,7 +6,8 @@
 //!
 //! z up from still water [m], V [m/s], rows sorted upwards. The sum has no branches, so it runs on several elements at once.
 
-use crate::algebra::lanes::{Real, Triple};
+use crate::algebra::real::Real;
+use crate::algebra::triple::Triple;
 use crate::scene::types::CurrentPoint;
 use nalgebra::Vector3;
 

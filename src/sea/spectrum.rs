@@ -8,7 +8,7 @@
 //! repeat itself) and with a random phase. All components thus have the same amplitude, H_s/4 √(2/N), and the variance of the
 //! elevation is H_s²/16 for any N. Frequencies from 0.3 to 5 f_p are used, beyond which lies 0.2 % of the energy.
 
-use crate::sea::waves::Wave;
+use crate::sea::wave::Wave;
 use std::f64::consts::TAU;
 
 /// Frequencies used, as multiples of that of the peak.

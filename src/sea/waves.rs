@@ -14,28 +14,18 @@
 //! significant wave height; what lies deeper than the longest component reaches is not looked at. Sine, cosine and exponential are polynomials, good to 3e-11, because they then run on several
 //! numbers at once: on several places for the element loop, on several components for a single place.
 
-use crate::algebra::dimension::Across;
-use crate::algebra::lanes::{Lanes, MOST_LANES, Real, Triple, padded};
+use crate::algebra::lanes::Lanes;
+use crate::algebra::real::Across;
+use crate::algebra::real::{MOST_LANES, Real, padded};
 use crate::algebra::shape::Shape;
+use crate::algebra::triple::Triple;
 use crate::scene::types::{self, Environment};
 use crate::sea::clock::Clock;
 use crate::sea::spectrum::Jonswap;
+use crate::sea::wave::{Wave, wave_number};
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 use std::f64::consts::{PI, TAU};
-
-/// One component.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wave {
-    /// a [m].
-    pub amplitude: f64,
-    /// ω [rad/s].
-    pub omega: f64,
-    /// b, from +x towards +y [rad].
-    pub direction: f64,
-    /// φ [rad].
-    pub phase: f64,
-}
 
 /// Motion of the water.
 #[derive(Debug, Clone, Copy)]
@@ -96,22 +86,6 @@ const RARE: f64 = 10.0;
 const DECAYED: f64 = 20.0;
 /// The water never becomes shallower than this share of its depth.
 const SHALLOWEST: f64 = 0.05;
-
-/// Wave number k > 0 [1/m] with ω² = g k tanh kd, by Newton's method on y tanh y = ω²d/g from Eckart's (1952) start, for ω [rad/s],
-/// g [m/s²], d [m].
-pub fn wave_number(omega: f64, gravity: f64, depth: f64) -> f64 {
-    let deep = omega * omega * depth / gravity;
-    let mut y = deep / deep.tanh().sqrt();
-    for _ in 0..20 {
-        let tanh = y.tanh();
-        let change = (y * tanh - deep) / (tanh + y * (1.0 - tanh * tanh));
-        y -= change;
-        if change.abs() <= 1e-15 * y {
-            break;
-        }
-    }
-    y / depth
-}
 
 impl Waves {
     /// The waves of an environment.

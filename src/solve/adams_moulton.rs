@@ -6,7 +6,7 @@
 //!
 //! Second order, no numerical damping. Local error of u: h²/12 (a₁ - a₀), filtered by the stage matrix.
 
-use crate::rod::element::Weights;
+use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::Stall;
 use crate::solve::scheme::{Bench, Moment, Scheme, largest_position, predict};

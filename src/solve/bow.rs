@@ -9,7 +9,7 @@
 //! strut under its load.
 
 use crate::algebra::shape::SHAPES3;
-use crate::rod::element::Ends;
+use crate::rod::ends::Ends;
 use crate::rod::mesh::Mesh;
 use crate::rod::state::Field;
 use nalgebra::Vector3;

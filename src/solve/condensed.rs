@@ -9,7 +9,7 @@
 //! are solved for at once: three for their first hanging ends, three for their second.
 
 use crate::algebra::block_tridiagonal::{Block, BlockTridiagonal, Factor, Singular};
-use crate::rod::element::Motion;
+use crate::rod::motion::Motion;
 use crate::rod::state::{COMPONENTS, Field};
 use crate::rod::system::{Links, System};
 use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix3x6, Matrix6, SMatrix, SymmetricEigen, Vector3, Vector6};

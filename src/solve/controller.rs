@@ -6,7 +6,8 @@ use crate::scene::types;
 use crate::sea::clock::Clock;
 use crate::solve::esdirk::{Esdirk, TR_BDF2};
 use crate::solve::newton::{Criteria, Stall};
-use crate::solve::scheme::{self, Bench, Moment, Scheme, Stages};
+use crate::solve::scheme::{Bench, Moment, Scheme, Stages};
+use crate::solve::schemes;
 
 /// What a run demands of its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +82,7 @@ impl Controller {
     /// A controller for a scheme and a number of nodes.
     pub fn new(name: types::Scheme, nodes: usize) -> Controller {
         Controller {
-            scheme: scheme::of(name, nodes),
+            scheme: schemes::of(name, nodes),
             guard: Esdirk::new(&TR_BDF2, nodes),
             next: State::new(nodes),
             tally: Tally::default(),

@@ -9,7 +9,7 @@
 //! so all stages share one matrix. The last stage is the end of the step. Error of u: h Σ (b_i - b̂_i) V_i, filtered
 //! by the stage matrix.
 
-use crate::rod::element::Weights;
+use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::Stall;
 use crate::solve::scheme::{Bench, Moment, Scheme, largest_position, predict};

@@ -10,7 +10,7 @@
 //! mismatch, of the order h², would strain the last element; its acceleration is that of the instant of the equation, t₁ - α_f h: blended
 //! exact accelerations would fall on t₁ - α_m h, which costs an order. Local error of u: h² (β - 1/6) (a₁ - a₀) (Zienkiewicz & Xie 1991), filtered by the stage matrix.
 
-use crate::rod::element::Weights;
+use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::Stall;
 use crate::solve::scheme::{Bench, Moment, Scheme, largest_position, predict};

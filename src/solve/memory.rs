@@ -1,7 +1,7 @@
 //! What the stage solver takes over from one step to the next, small enough to be part of a state: how it did of late, and from what the
 //! factor of its tangent was made. The factor itself is not kept: from the same it is made again to the last bit.
 
-use crate::rod::element::{Motion, Weights};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::state::State;
 use std::sync::Arc;
 

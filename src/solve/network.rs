@@ -10,8 +10,8 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::rotation;
-use crate::rod::element::{Motion, Weights};
 use crate::rod::line::Line;
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::{Links, System};

@@ -6,7 +6,7 @@
 
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
 use crate::algebra::definite::is_positive_definite;
-use crate::rod::element::{Motion, Weights};
+use crate::rod::motion::{Motion, Weights};
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::rod::system::System;
 use crate::solve::memory::{Memory, Shelf};

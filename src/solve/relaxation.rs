@@ -9,8 +9,8 @@
 //! last step, as in the direct attempt of statics: a stiff line then turns by a tenth in one step, where a search along the step
 //! would stop at the first stretch. h is governed by how far the line turns, and a step of h = ∞ is Newton's method.
 
-use crate::rod::element::Weights;
 use crate::rod::line::Line;
+use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::{Newton, motion};
 use crate::solve::turn::{self, LONGEST_STEP};

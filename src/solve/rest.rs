@@ -8,8 +8,8 @@
 //! static tangent, r the force out of balance. With the ends held it never grows, since the water only takes energy. Even if all of
 //! it went into stretching one element of length ℓ, its tension would change by no more than δT [N].
 
-use crate::rod::element::Weights;
 use crate::rod::line::{Line, Supports};
+use crate::rod::motion::Weights;
 use crate::rod::physics::Decision;
 use crate::rod::state::{Field, State};
 use crate::scene::types::Scene;

@@ -10,8 +10,8 @@
 //! residual is no larger than the bound; the roundings on the way from the unknowns to the forces are of the same size and not counted.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::rod::element::Weights;
 use crate::rod::line::Line;
+use crate::rod::motion::Weights;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::newton::motion;
 use nalgebra::SVector;

@@ -1,13 +1,9 @@
 //! What every time integration scheme is made of: a step from one state to the next as a few stages, and an estimate of its error.
 
-use crate::rod::element::Weights;
+use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::rod::system::System;
-use crate::scene::types;
 use crate::sea::clock::Clock;
-use crate::solve::adams_moulton::AdamsMoulton;
-use crate::solve::esdirk::{ARK3, Esdirk};
-use crate::solve::generalized_alpha::GeneralizedAlpha;
 use crate::solve::motion::{Kinematics, Path};
 use crate::solve::newton::{Criteria, Newton, Stall, motion};
 use crate::solve::tangent::{LinearStage, SolvedStage};
@@ -166,15 +162,6 @@ pub trait Scheme: Send {
     /// Whether what rings dies away by itself (L-stable).
     fn is_l_stable(&self) -> bool {
         false
-    }
-}
-
-/// The scheme of a name, with room for `nodes` nodes.
-pub fn of(name: types::Scheme, nodes: usize) -> Box<dyn Scheme> {
-    match name {
-        types::Scheme::AdamsMoulton | types::Scheme::Cable1994 => Box::new(AdamsMoulton::new(nodes)),
-        types::Scheme::Esdirk3 => Box::new(Esdirk::new(&ARK3, nodes)),
-        types::Scheme::GeneralizedAlpha => Box::new(GeneralizedAlpha::new(nodes)),
     }
 }
 

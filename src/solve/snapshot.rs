@@ -1,13 +1,13 @@
 //! The complete state of a line in time as plain data, and as bytes.
 
 use crate::cable1994::line::Tensions;
-use crate::rod::element::Weights;
+use crate::rod::motion::Weights;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::sea::clock::Clock;
+use crate::solve::counters::LastStep;
 use crate::solve::memory::{Memory, Origin};
 use crate::solve::newton::Newton;
 use crate::solve::scheme::Moment;
-use crate::solve::simulation::LastStep;
 use nalgebra::Matrix3;
 use std::sync::Arc;
 

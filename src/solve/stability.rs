@@ -11,8 +11,8 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::definite::is_positive_definite;
-use crate::rod::element::Weights;
 use crate::rod::line::Line;
+use crate::rod::motion::Weights;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::solve::newton::{Newton, motion};
 use crate::solve::turn;

@@ -2,8 +2,9 @@
 
 use crate::algebra::shape::SHAPES3;
 use crate::rod::catenary::{Catenary, Span};
-use crate::rod::element::Ends;
-use crate::rod::mesh::{Mesh, Properties};
+use crate::rod::ends::Ends;
+use crate::rod::mesh::Mesh;
+use crate::rod::properties::Properties;
 use crate::rod::seabed::Plane;
 use crate::rod::state::Field;
 use nalgebra::Vector3;

@@ -6,8 +6,8 @@
 //! patience is a pile of slack line, whose equilibrium is not unique. A force in balance is one within 1e-6 of weight or end tension, or
 //! within what rounding of the positions makes of it, where that is more (`rounding`).
 
-use crate::rod::element::Weights;
 use crate::rod::line::Line;
+use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::{Newton, motion};
 use crate::solve::relaxation::Relaxation;

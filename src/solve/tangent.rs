@@ -5,7 +5,7 @@
 //! changes; the choice of steps is not differentiated.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::rod::element::Weights;
+use crate::rod::motion::Weights;
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::rod::system::System;
 use crate::solve::newton::{Stall, motion};

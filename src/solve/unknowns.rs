@@ -1,7 +1,7 @@
 //! The free unknowns of a line and the factor of their matrix: all six of a node, or the four in the plane of a planar line.
 
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Factor, Singular};
-use crate::rod::element::Motion;
+use crate::rod::motion::Motion;
 use crate::rod::state::{COMPONENTS, Field};
 use crate::rod::system::System;
 use crate::solve::condensed::Condensed;

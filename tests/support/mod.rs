@@ -5,11 +5,12 @@
 use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::algebra::shape::Shape;
 use moorline::rod::body::Body;
-use moorline::rod::element::Weights;
 use moorline::rod::hold::{self, Hold};
 use moorline::rod::line::{Line, Supports};
-use moorline::rod::mesh::{Mesh, Properties};
+use moorline::rod::mesh::Mesh;
+use moorline::rod::motion::Weights;
 use moorline::rod::physics::{self, Surroundings};
+use moorline::rod::properties::Properties;
 use moorline::rod::seabed::{Plane, Resistance};
 use moorline::rod::state::{COMPONENTS, Field, State};
 use moorline::rod::touching::Ground;

@@ -1,8 +1,8 @@
 //! Bodies and points, and what lines hang on.
 
-use super::{finite, not_negative, number, positive, refuse, sinusoid, triple};
 use crate::error::{Error, among};
 use crate::scene::bodies::{Body, BodyMotion, Matrix, Mount, Point, PointMotion};
+use crate::scene::check::finding::{distance, finite, not_negative, number, positive, refuse, sinusoid, triple};
 use crate::scene::types::{Scene, Scheme, Triple};
 use nalgebra::SymmetricEigen;
 
@@ -105,7 +105,7 @@ fn cylinders(body: &Body, file: &str, at: &impl Fn(&str) -> String) -> Result<()
         finite(file, &at("to"), &cylinder.to)?;
         positive(file, &at("diameter"), cylinder.diameter, "m")?;
         not_negative(file, &at("mass"), cylinder.mass, "kg")?;
-        let length = super::distance(cylinder.from, cylinder.to);
+        let length = distance(cylinder.from, cylinder.to);
         if !(length > 1.0e-6 * cylinder.diameter) {
             return refuse(file, at("to"), triple(cylinder.to), "a cylinder has some length: its ends must differ");
         }

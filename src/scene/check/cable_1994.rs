@@ -1,7 +1,7 @@
 //! What the scheme `cable-1994` cannot do, and refuses rather than leaves out.
 
-use super::{in_type, number, refuse};
 use crate::error::Error;
+use crate::scene::check::finding::{in_type, number, refuse, sections};
 use crate::scene::types::{LineType, Motion, Scene, Scheme, Stretch, Surface};
 
 /// What other schemes do instead.
@@ -96,6 +96,6 @@ fn step(scene: &Scene, file: &str) -> Result<(), Error> {
 
 /// The line types that a section names.
 fn used_types(scene: &Scene) -> impl Iterator<Item = (&String, &LineType)> {
-    let used = |name: &String| super::sections(scene).any(|(_, section)| section.line_type == *name);
+    let used = |name: &String| sections(scene).any(|(_, section)| section.line_type == *name);
     scene.line_types.iter().filter(move |(name, _)| used(name))
 }

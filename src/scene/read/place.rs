@@ -3,7 +3,7 @@
 //! serde knows the place of a wrong value but not its line once `--set` has been at work; this scan of the text finds it.
 //! It also sees what serde_json lets pass: a key that stands twice in one object.
 
-pub use crate::scene::text::{char_start, line_and_column};
+use crate::scene::text::char_start;
 use std::collections::HashMap;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -202,6 +202,7 @@ fn string_end(bytes: &[u8], start: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::text::line_and_column;
 
     const TEXT: &str = "{\n \"ä\": [1, {\"b]\": \"x,}\"}],\n \"c.d\": 2}";
 

@@ -11,7 +11,7 @@
 use super::{Group, still};
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::error::{Adrift, Error, Trouble};
-use crate::rod::element::Weights;
+use crate::rod::motion::Weights;
 use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::System;

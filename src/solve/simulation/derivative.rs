@@ -4,49 +4,17 @@ use super::{Simulation, begin, moving};
 use crate::error::Error;
 use crate::rod::line::Line;
 use crate::rod::physics::{self, Surroundings};
-use crate::rod::state::State;
-use crate::solve::controller::{self, Failure, Leg};
+use crate::solve::controller::{self, Failure};
+use crate::solve::linearised::{Linearised, Repeated};
 use crate::solve::motion::{Ends, Path};
 use crate::solve::outputs::{self, Outputs};
 use crate::solve::scheme::{Bench, Moment, Stages};
-use crate::solve::snapshot::Snapshot;
 use crate::solve::tangent::{self, LinearStage};
 use nalgebra::Vector3;
-
-/// Steps already taken and linearised: what `derivative` goes along, as often as wanted.
-pub struct Linearised {
-    time: f64,
-    history: f64,
-    fresh: bool,
-    legs: Vec<Leg>,
-    states: Vec<State>,
-    stages: Vec<LinearStage>,
-    /// The line in space, where the steps are those of a line in a plane: changes may lead across it.
-    spatial: Option<Box<dyn Line>>,
-    repeated: Option<Repeated>,
-}
 
 /// Displacement of the fairlead for a static derivative, as a share of the line's length: forces in balance to 1e-7 of the weight then make derivatives
 /// good to 1e-2 of weight per length, and bends of the answer do not show.
 const STATIC_SHARE: f64 = 1.0e-5;
-
-/// Where steps of `cable-1994` begin, until when and along which path: they are repeated, not linearised.
-type Repeated = (Snapshot, f64, Path);
-
-impl Linearised {
-    fn repeated(from: &Snapshot, until: f64, path: &Path) -> Linearised {
-        Linearised {
-            time: from.moment.state.clock.now,
-            history: 0.0,
-            fresh: false,
-            legs: Vec::new(),
-            states: Vec::new(),
-            stages: Vec::new(),
-            spatial: None,
-            repeated: Some((from.clone(), until, path.clone())),
-        }
-    }
-}
 
 impl Simulation {
     /// Takes the steps to a time and linearises them. The simulation stays as it is.

@@ -1,0 +1,33 @@
+//! Which command answers what was typed, and the exit code of its outcome. One file per command stands beside this one.
+
+use crate::cli::arguments::{Arguments, Command, RunArguments};
+use crate::cli::stop::Stop;
+use crate::cli::{check, console, convert, fit, pack, run, schema, statics};
+use clap::Parser;
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Runs the command line and turns its outcome into the exit code.
+pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(answer) => return console::usage(&answer),
+    };
+    let outcome = match arguments.command {
+        None => run::run(&RunArguments { scene: None, options: arguments.run }),
+        Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Statics(arguments)) => statics::statics(&arguments),
+        Some(Command::Fit(arguments)) => fit::fit(&arguments),
+        Some(Command::Check(arguments)) => check::check(&arguments),
+        Some(Command::Schema) => schema::schema(),
+        Some(Command::Pack(arguments)) => pack::pack(&arguments),
+        Some(Command::Convert(arguments)) => convert::convert(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Stop::Failed(error)) => {
+            console::error(&error.to_string());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
