@@ -3,9 +3,14 @@
 use crate::error::Error;
 use crate::solve::motion::Path;
 use crate::solve::simulation::Simulation;
+use rayon::ScopeFifo;
+use rayon::prelude::*;
+use std::any::Any;
 use std::collections::VecDeque;
 use std::ops::Range;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How many rows a line may be ahead of the last one that all lines have: bounds the memory of what waits for the others.
@@ -28,30 +33,17 @@ pub fn advance(lines: &mut [Moored], until: f64) -> Vec<Result<(), Error>> {
 
 /// How many threads share so many items: as many as there are cores, none more than items.
 pub fn threads(items: usize) -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get()).min(items)
+    // One item needs no threads, and so does not start them.
+    if items < 2 { items } else { rayon::current_num_threads().min(items) }
 }
 
 /// Does some work for every item, on all cores, and returns the results in the order of the items. A thread that has finished an
-/// item takes the next.
+/// item takes another.
 pub fn for_each<T: Send, R: Send>(items: &mut [T], work: impl Fn(&mut T) -> R + Sync) -> Vec<R> {
-    let threads = threads(items.len());
-    if threads < 2 {
+    if threads(items.len()) < 2 {
         return items.iter_mut().map(work).collect();
     }
-    let mut results: Vec<Option<R>> = items.iter().map(|_| None).collect();
-    let queue = Mutex::new(items.iter_mut().zip(&mut results));
-    // Nothing panics while it holds the lock, so a poisoned one is as good as any.
-    let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let labour = || {
-        while let Some((item, result)) = next() {
-            *result = Some(work(item));
-        }
-    };
-    std::thread::scope(|scope| {
-        (1..threads).for_each(|_| drop(scope.spawn(labour)));
-        labour();
-    });
-    results.into_iter().flatten().collect()
+    items.par_iter_mut().with_max_len(1).map(&work).collect()
 }
 
 /// Takes all lines through rows of a table, on all cores. `work` does the next row of a line; `gather` gets the results of every row, in
@@ -67,126 +59,166 @@ pub fn through_rows<L: Send, R: Send, E: Send>(
     gather: impl FnMut(usize, Vec<R>) -> Result<(), E>,
 ) -> Result<(), E> {
     let threads = threads(lines.len());
-    on_threads(threads, lines, rows, work, gather)
+    // A thread of the pool that waited for others of it might wait for ever.
+    if threads < 2 || rayon::current_thread_index().is_some() {
+        return one_by_one(lines, rows, work, gather);
+    }
+    let (convoy, reports) = Convoy::new(lines, rows.start, threads);
+    rayon::in_place_scope_fifo(|scope| convoy.lead(scope, &reports, rows, &work, gather))
 }
 
-fn on_threads<L: Send, R: Send, E: Send>(
-    threads: usize,
+fn one_by_one<L, R, E>(
     lines: &mut [L],
-    rows: Range<usize>,
-    work: impl Fn(&mut L, usize) -> Result<R, E> + Sync,
+    mut rows: Range<usize>,
+    work: impl Fn(&mut L, usize) -> Result<R, E>,
     mut gather: impl FnMut(usize, Vec<R>) -> Result<(), E>,
 ) -> Result<(), E> {
-    if threads < 2 {
-        for row in rows {
-            let results: Result<_, E> = lines.iter_mut().map(|line| work(line, row)).collect();
-            gather(row, results?)?;
-        }
-        return Ok(());
-    }
-    let convoy = Convoy::new(lines, rows.clone());
-    std::thread::scope(|scope| {
-        let _end = End(&convoy);
-        (0..threads).for_each(|_| drop(scope.spawn(|| convoy.labour(&work))));
-        for row in rows {
-            let Some(results) = convoy.collect() else { break };
-            gather(row, results?)?;
-        }
-        Ok(())
+    rows.try_for_each(|row| {
+        let results: Result<_, E> = lines.iter_mut().map(|line| work(line, row)).collect();
+        gather(row, results?)
     })
 }
 
-/// Lines on their way through the rows, shared by the threads.
+/// What a line has done in its turn, or the panic that ended it.
+type Report<R, E> = (usize, Result<Vec<Result<R, E>>, Box<dyn Any + Send>>);
+
+/// Lines on their way through the rows. The pool of threads gives each task a thread; the order in which lines move, and how far, is
+/// this: the hindmost first, none far ahead of the rest.
 struct Convoy<'a, L, R, E> {
-    places: Mutex<Places<'a, L, R, E>>,
-    /// A line has moved, or a row was gathered, or all is over.
-    changed: Condvar,
-    end: usize,
+    places: Mutex<Places<'a, L>>,
+    reports: Sender<Report<R, E>>,
+    /// As many as move at once.
+    most: usize,
 }
 
-struct Places<'a, L, R, E> {
-    /// Lines that no thread is at: next row, number, line.
+struct Places<'a, L> {
+    /// Lines that nobody moves: next row, number, line.
     waiting: Vec<(usize, usize, &'a mut L)>,
-    /// What each line has done and nobody has gathered.
-    done: Vec<VecDeque<Result<R, E>>>,
-    /// Next row to gather.
-    row: usize,
-    over: bool,
+    /// No line does this row yet.
+    limit: usize,
+    /// Tasks that move lines.
+    moving: usize,
 }
 
-impl<'a, L, R, E> Convoy<'a, L, R, E> {
-    fn new(lines: &'a mut [L], rows: Range<usize>) -> Self {
-        let done = lines.iter().map(|_| VecDeque::new()).collect();
-        let waiting = lines.iter_mut().enumerate().map(|(number, line)| (rows.start, number, line)).collect();
-        let places = Mutex::new(Places { waiting, done, row: rows.start, over: false });
-        Convoy { places, changed: Condvar::new(), end: rows.end }
+impl<L> Places<'_, L> {
+    /// Which of those that wait is to move: the one that is farthest behind, if it may.
+    fn hindmost(&self) -> Option<usize> {
+        let behind = |place: &usize| (self.waiting[*place].0, self.waiting[*place].1);
+        (0..self.waiting.len()).min_by_key(behind).filter(|place| self.waiting[*place].0 < self.limit)
+    }
+}
+
+impl<'a, L: Send, R: Send, E: Send> Convoy<'a, L, R, E> {
+    fn new(lines: &'a mut [L], start: usize, most: usize) -> (Self, Receiver<Report<R, E>>) {
+        let waiting = lines.iter_mut().enumerate().map(|(number, line)| (start, number, line)).collect();
+        let (reports, receiver) = channel();
+        (Convoy { places: Mutex::new(Places { waiting, limit: start, moving: 0 }), reports, most }, receiver)
     }
 
-    fn lock(&self) -> MutexGuard<'_, Places<'a, L, R, E>> {
-        // Nothing panics while it holds the lock, so a poisoned one is as good as any.
-        self.places.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Gathers row after row on the thread of the caller, while tasks of the scope move the lines.
+    fn lead<'scope>(
+        &'scope self,
+        scope: &ScopeFifo<'scope>,
+        reports: &Receiver<Report<R, E>>,
+        rows: Range<usize>,
+        work: &'scope (impl Fn(&mut L, usize) -> Result<R, E> + Sync),
+        mut gather: impl FnMut(usize, Vec<R>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let _halt = Halt(&self.places);
+        let mut done: Vec<VecDeque<Result<R, E>>> = lock(&self.places).waiting.iter().map(|_| VecDeque::new()).collect();
+        let limit = |row: usize| rows.end.min(row + AHEAD);
+        self.open(scope, limit(rows.start), work);
+        for row in rows.clone() {
+            while done.iter().any(VecDeque::is_empty) {
+                // The channel stays open: the convoy holds an end of it.
+                let Ok((number, results)) = reports.recv() else { break };
+                done[number].extend(results.unwrap_or_else(|panic| resume_unwind(panic)));
+            }
+            self.open(scope, limit(row + 1), work);
+            let results: Result<Vec<R>, E> = done.iter_mut().filter_map(VecDeque::pop_front).collect();
+            gather(row, results?)?;
+        }
+        Ok(())
     }
 
-    fn wait<'b>(&self, places: MutexGuard<'b, Places<'a, L, R, E>>) -> MutexGuard<'b, Places<'a, L, R, E>> {
-        self.changed.wait(places).unwrap_or_else(PoisonError::into_inner)
+    /// Opens the rows before a limit, with as many tasks as find something to do.
+    fn open<'scope>(
+        &'scope self,
+        scope: &ScopeFifo<'scope>,
+        limit: usize,
+        work: &'scope (impl Fn(&mut L, usize) -> Result<R, E> + Sync),
+    ) {
+        let mut places = lock(&self.places);
+        places.limit = limit;
+        let ready = places.waiting.iter().filter(|(row, ..)| *row < limit).count();
+        let more = ready.min(self.most - places.moving);
+        places.moving += more;
+        drop(places);
+        (0..more).for_each(|_| scope.spawn_fifo(|_| self.labour(work)));
     }
 
-    /// What a thread does: takes the line that is farthest behind a few rows on, and then the next, until all is over.
+    /// What a task does: takes the line that is farthest behind a few rows on, and then the next, until none may go on.
     fn labour(&self, work: &impl Fn(&mut L, usize) -> Result<R, E>) {
-        let _end = End(self);
-        let mut places = self.lock();
-        while !places.over {
-            let limit = self.end.min(places.row + AHEAD);
-            let hindmost = (0..places.waiting.len()).min_by_key(|place| (places.waiting[*place].0, places.waiting[*place].1));
-            let Some(place) = hindmost.filter(|place| places.waiting[*place].0 < limit) else {
-                places = self.wait(places);
-                continue;
-            };
-            let (mut row, number, line) = places.waiting.swap_remove(place);
+        let mut places = lock(&self.places);
+        while let Some(place) = places.hindmost() {
+            let ((mut row, number, line), limit) = (places.waiting.swap_remove(place), places.limit);
             drop(places);
             let (began, mut results) = (Instant::now(), Vec::new());
-            while row < limit && (results.is_empty() || began.elapsed() < TURN) {
-                let result = work(line, row);
-                // A line that has failed has no row after that.
-                row = if result.is_ok() { row + 1 } else { self.end };
-                results.push(result);
+            let turn = catch_unwind(AssertUnwindSafe(|| {
+                while row < limit && (results.is_empty() || began.elapsed() < TURN) {
+                    let result = work(line, row);
+                    // A line that has failed has no row after that.
+                    row = if result.is_ok() { row + 1 } else { usize::MAX };
+                    results.push(result);
+                }
+            }));
+            places = lock(&self.places);
+            // A line whose turn ended in a panic is left aside.
+            if turn.is_ok() {
+                places.waiting.push((row, number, line));
             }
-            places = self.lock();
-            places.done[number].extend(results);
-            places.waiting.push((row, number, line));
-            self.changed.notify_all();
+            // Where nobody listens any more, all is over.
+            let _ = self.reports.send((number, turn.map(|()| results)));
         }
-    }
-
-    /// Waits until all lines have done the next row, and takes it; none where a thread ended before its time.
-    fn collect(&self) -> Option<Result<Vec<R>, E>> {
-        let mut places = self.lock();
-        while !places.over && places.done.iter().any(VecDeque::is_empty) {
-            places = self.wait(places);
-        }
-        if places.over {
-            return None;
-        }
-        places.row += 1;
-        self.changed.notify_all();
-        places.done.iter_mut().map(VecDeque::pop_front).collect::<Option<Vec<_>>>().map(|row| row.into_iter().collect())
+        places.moving -= 1;
     }
 }
 
-/// Ends the work of all threads when it goes: also when the thread that has it panics, so that no other waits for it.
-struct End<'a, 'b, L, R, E>(&'a Convoy<'b, L, R, E>);
+fn lock<'a, 'b, L>(places: &'a Mutex<Places<'b, L>>) -> MutexGuard<'a, Places<'b, L>> {
+    // Nothing panics while it holds the lock, so a poisoned one is as good as any.
+    places.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
-impl<L, R, E> Drop for End<'_, '_, L, R, E> {
+/// Halts all lines when it goes: also when the caller leaves with a panic.
+struct Halt<'a, 'b, L>(&'a Mutex<Places<'b, L>>);
+
+impl<L> Drop for Halt<'_, '_, L> {
     fn drop(&mut self) {
-        self.0.lock().over = true;
-        self.0.changed.notify_all();
+        lock(self.0).limit = 0;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rayon::ThreadPoolBuilder;
     use std::sync::atomic::{AtomicUsize, Ordering};
+
+    /// `through_rows` on a number of threads.
+    fn on_threads<L: Send, R: Send, E: Send>(
+        threads: usize,
+        lines: &mut [L],
+        rows: Range<usize>,
+        work: impl Fn(&mut L, usize) -> Result<R, E> + Sync,
+        gather: impl FnMut(usize, Vec<R>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        if threads < 2 {
+            return one_by_one(lines, rows, work, gather);
+        }
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let (convoy, reports) = Convoy::new(lines, rows.start, threads);
+        pool.in_place_scope_fifo(|scope| convoy.lead(scope, &reports, rows, &work, gather))
+    }
 
     /// Number of a line, and a row.
     type Place = (usize, usize);
@@ -256,5 +288,24 @@ mod tests {
         });
         assert_eq!(items, (1..=1000).collect::<Vec<_>>());
         assert_eq!(results, (1..=1000).map(|n| 2 * n).collect::<Vec<_>>());
+    }
+
+    /// Rows within rows: on a thread of the pool, lines take turns on that thread and nothing waits for ever.
+    #[test]
+    fn a_fleet_may_be_part_of_the_work_on_an_item() {
+        let mut fleets = vec![[0; 3]; 64];
+        let sums = for_each(&mut fleets, |lines| {
+            let mut sum = 0;
+            let work = |line: &mut usize, row: usize| {
+                *line += row;
+                Ok::<_, ()>(*line)
+            };
+            let outcome = through_rows(lines, 0..100, work, |_, row| {
+                sum += row.iter().sum::<usize>();
+                Ok(())
+            });
+            outcome.map(|()| sum)
+        });
+        assert_eq!(sums, vec![Ok(3 * 166_650); 64]);
     }
 }
