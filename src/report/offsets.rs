@@ -6,6 +6,9 @@ use std::fmt::Write;
 
 const TEMPLATE: &str = include_str!("page/offsets.html");
 
+/// Offset, force [N] and moment [N·m] about the reference point, tension at each fairlead [N].
+pub type Row = (f64, [Vector3<f64>; 2], Vec<f64>);
+
 /// What the mooring does to a body that is held aside.
 pub struct Curve {
     /// Title of the scene.
@@ -19,7 +22,7 @@ pub struct Curve {
     /// Names of the lines.
     pub lines: Vec<String>,
     /// Offset, force [N] and moment [N·m] about the reference point, tension at each fairlead [N].
-    pub rows: Vec<(f64, [Vector3<f64>; 2], Vec<f64>)>,
+    pub rows: Vec<Row>,
 }
 
 /// The table: `offset`, six loads, and the tension of each line.
@@ -38,7 +41,7 @@ pub fn csv(curve: &Curve) -> String {
 
 /// The page: three plots that open offline.
 pub fn html(curve: &Curve) -> String {
-    let column = |of: &dyn Fn(&(f64, [Vector3<f64>; 2], Vec<f64>)) -> f64| -> Vec<f64> { curve.rows.iter().map(of).collect() };
+    let column = |of: &dyn Fn(&Row) -> f64| -> Vec<f64> { curve.rows.iter().map(of).collect() };
     let mut plots = Vec::new();
     let x = column(&|row| row.0);
     for (number, (name, unit)) in [("force", "kN"), ("moment", "kN m")].into_iter().enumerate() {

@@ -14,19 +14,19 @@ mod solver;
 mod vector;
 mod waves;
 
-pub use environment::{Environment, Seabed, CurrentPoint, Surface};
-pub use line::{Line, Section, SAME_PLACE};
-pub use line_type::{LineType, NormalTangential, InnerFluid};
+use crate::scene::bodies::{Body, Point};
+pub use environment::{CurrentPoint, Environment, Seabed, Surface};
+pub use line::{Line, SAME_PLACE, Section};
+pub use line_type::{InnerFluid, LineType, NormalTangential};
 pub use motion::Motion;
 pub use point::{Attachment, Constraint, ReferenceMotion};
 pub use run::Run;
-pub use solver::{Solver, Scheme, Stretch};
-pub use vector::Triple;
-pub use waves::{Waves, WaveComponent};
-use crate::scene::bodies::{Body, Point};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+pub use solver::{Scheme, Solver, Stretch};
 use std::collections::BTreeMap;
+pub use vector::Triple;
+pub use waves::{WaveComponent, Waves};
 
 /// A moorline scene: environment, line types, lines, fairlead motion and run settings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -28,6 +28,9 @@ use nalgebra::{Matrix3, Vector3};
 
 mod statics;
 
+/// Outputs of the lines of a group, motions of its bodies and of its points.
+type Everything = (Vec<Outputs>, Vec<Vec<Vector3<f64>>>, Vec<[Vector3<f64>; 2]>);
+
 /// Which end of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EndOf {
@@ -402,7 +405,7 @@ impl Group {
     }
 
     /// Outputs of lines; position, angles, velocity and angular velocity of bodies; position and velocity of points.
-    fn all(&mut self) -> (Vec<Outputs>, Vec<Vec<Vector3<f64>>>, Vec<[Vector3<f64>; 2]>) {
+    fn all(&mut self) -> Everything {
         let lines = (0..self.simulations.len()).map(|local| self.outputs(local)).collect();
         let body = |number: usize| {
             let motion = self.body(number);

@@ -33,9 +33,12 @@ pub struct Equilibrium {
     pub points: Vec<(usize, Vector3<f64>)>,
 }
 
+/// The path of a body, and the ends that hang on it, as (line, whether it is its anchor).
+type OfBody = (PosePath, Vec<(usize, bool)>);
+
 /// How each body moves that is driven, and what hangs on it.
 pub struct Hung {
-    bodies: Vec<(PosePath, Vec<(usize, bool)>)>,
+    bodies: Vec<OfBody>,
 }
 
 impl Hung {
@@ -47,7 +50,7 @@ impl Hung {
 
     /// All bodies at a time; `free` are the poses of those that are not driven, `outputs` those of the lines.
     pub fn bodies(&self, time: f64, free: &[(usize, Pose)], outputs: &[Outputs]) -> Vec<BodyOutputs> {
-        let body = |(index, (path, ends)): (usize, &(PosePath, Vec<(usize, bool)>))| {
+        let body = |(index, (path, ends)): (usize, &OfBody)| {
             let own = free.iter().find(|(body, _)| *body == index).map(|(_, pose)| *pose);
             let pose = own.unwrap_or_else(|| {
                 let [position, angles] = path.pose(time);

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::scene::check::finding::{finite, not_negative, number, positive, refuse};
-use crate::scene::types::{Scene};
+use crate::scene::types::Scene;
 
 pub fn gravity(scene: &Scene, file: &str) -> Result<(), Error> {
     positive(file, "environment.gravity", scene.environment.gravity, "m/s²")

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, among};
 use crate::scene::check::finding::{finite, number, positive, refuse, sections, triple};
-use crate::scene::types::{Scene};
+use crate::scene::types::Scene;
 
 /// Most elements of a scene.
 const MOST_ELEMENTS: usize = 20_000;

@@ -1,7 +1,7 @@
 //! Whether a line reaches from end to end without breaking.
 
 use crate::error::{Error, Limit, Reach};
-use crate::scene::check::finding::{distance};
+use crate::scene::check::finding::distance;
 use crate::scene::types::{Line, LineType, Scene};
 
 /// A line may be shorter than the distance of its ends: it stretches, but neither to twice its length nor beyond a breaking load. An

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::scene::check::finding::{finite, not_negative, number, positive, refuse};
-use crate::scene::types::{Scene};
+use crate::scene::types::Scene;
 
 /// Most rows of `timeseries.csv`.
 const MOST_ROWS: f64 = 5.0e7;

@@ -1,6 +1,7 @@
 //! What a step's end depends on: steps taken again as linear ones, or repeated where the scheme is one linear solve itself.
 
-use super::{Simulation, begin, moving};
+use super::Simulation;
+use super::passage::{begin, moving};
 use crate::error::Error;
 use crate::rod::line::Line;
 use crate::rod::physics::{self, Surroundings};
