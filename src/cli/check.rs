@@ -7,7 +7,8 @@ use crate::report::schedule::Schedule;
 use crate::report::units::{count, sim_time, wall_time};
 use crate::scene::read::Loaded;
 use crate::scene::types::{Motion, Scene};
-use crate::solve::motion::Path;
+use crate::solve::motion::Ends;
+use crate::solve::partition::{self, Together};
 use crate::solve::simulation::{Decision, Simulation};
 use std::fmt::Write;
 
@@ -23,9 +24,16 @@ const DEFAULT_TOLERANCE: f64 = 1.0e-3;
 /// Prints the check; a bad scene has failed before this prints anything.
 pub fn check(arguments: &SceneArguments) -> Result<(), Stop> {
     let loaded = arguments.load()?;
-    let line = |index| Simulation::on_path(&loaded.scene, index, Some(&Path::of_scene(&loaded, index)));
+    let parts = partition::parts(&loaded.scene);
+    let together = |index: usize| parts.iter().any(|part| part.lines.contains(&index) && !part.is_alone());
+    // Lines that meet are solved in space.
+    let line = |index| {
+        let ends = Ends::of_scene(&loaded, index);
+        Simulation::on_ends(&loaded.scene, index, Some(&ends).filter(|_| !together(index)))
+    };
     let lines: Vec<Simulation> = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, _>>()?;
     let mut text = header(&loaded);
+    text += &coupling(&loaded.scene, &parts);
     for (line, simulation) in loaded.scene.lines.iter().zip(&lines) {
         let _ = writeln!(text, "\nLine \"{}\": {} m", on_terminal(&line.name), line.length());
         physics(&mut text, simulation);
@@ -47,6 +55,36 @@ fn header(loaded: &Loaded) -> String {
     };
     let title = if scene.title.is_empty() { String::new() } else { format!("{}\n", on_terminal(&scene.title)) };
     format!("{title}{}: a good scene; {}, {motion}\n", on_terminal(&loaded.file), count(scene.lines.len(), "line"))
+}
+
+/// What is solved together, and why; nothing where all lines hang on coordinates.
+fn coupling(scene: &Scene, parts: &[Together]) -> String {
+    let mut text = String::new();
+    if scene.bodies.is_empty() && scene.points.is_empty() {
+        return text;
+    }
+    text.push('\n');
+    let names =
+        |names: Vec<&String>| names.iter().map(|name| format!("\"{}\"", on_terminal(name))).collect::<Vec<_>>().join(", ");
+    for part in parts.iter().filter(|part| !part.is_alone()) {
+        let lines = names(part.lines.iter().map(|line| &scene.lines[*line].name).collect());
+        let bodies = part.bodies.iter().map(|body| &scene.bodies[*body].name);
+        let free = names(bodies.chain(part.points.iter().map(|point| &scene.points[*point].name)).collect());
+        let _ = writeln!(text, "  together  {lines}: they meet at what is free, {free}, and are solved for with it");
+    }
+    let alone: Vec<&String> = parts
+        .iter()
+        .filter(|part| part.is_alone())
+        .flat_map(|part| part.lines.iter().map(|line| &scene.lines[*line].name))
+        .collect();
+    if !alone.is_empty() {
+        let _ = writeln!(text, "  apart     {}: each between ends that are fixed or driven, with steps of its own", names(alone));
+    }
+    let driven: Vec<&String> = scene.bodies.iter().filter(|body| !body.is_free()).map(|body| &body.name).collect();
+    if !driven.is_empty() {
+        let _ = writeln!(text, "  driven    {}: exact kinematics, nothing to solve for; inputs of an FMU", names(driven));
+    }
+    text
 }
 
 /// What is modelled, and what is skipped and why.

@@ -55,10 +55,16 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Stop> {
         None => (0.25 * present.abs(), 4.0 * present.abs()),
     };
     let (low, high) = if arguments.range.is_none() && present < 0.0 { (-high, -low) } else { (low, high) };
+    // In the whole scene, so that what the file leaves to defaults can be changed, too.
+    let with = |value: f64| -> Result<Loaded, Error> {
+        let mut changed = whole.clone();
+        if let Some(place) = changed.pointer_mut(&pointer) {
+            *place = Value::from(value);
+        }
+        read::parse(&changed.to_string(), &given.file, &given.directory, &[])
+    };
     let solve = |value: f64| -> Result<f64, Error> {
-        let mut sets = arguments.sets.clone();
-        sets.push(format!("{}={value:?}", arguments.change));
-        let loaded = read::load(&arguments.scene, &sets)?;
+        let loaded = with(value)?;
         let rest = Mooring::new(&loaded)?.equilibrium(loaded.scene.run.start)?;
         result(&loaded, &rest, what)
     };
@@ -98,9 +104,7 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Stop> {
         ));
     }
     let (value, reached) = false_position(*nearest, wanted.abs().max(f64::MIN_POSITIVE), &solve, wanted)?;
-    let mut sets = arguments.sets.clone();
-    sets.push(format!("{}={value:?}", arguments.change));
-    let fitted = read::load(&arguments.scene, &sets)?;
+    let fitted = with(value)?;
     let output = arguments.output.clone().unwrap_or_else(|| arguments.scene.with_extension("fitted.json"));
     tables::write(&output, &(serde_json::to_string_pretty(&fitted.scene).unwrap_or_default() + "\n"))?;
     let text = format!(
