@@ -51,6 +51,8 @@ pub struct Simulation {
     fresh: bool,
     /// The state is known to be at rest.
     resting: bool,
+    /// It is an equilibrium that was found between other ends.
+    settled: bool,
     /// The scene lets the line stay in a plane, as long as its fairlead does.
     may_be_planar: bool,
     last: LastStep,

@@ -197,7 +197,7 @@ impl Group {
         for (simulation, start) in self.simulations.iter_mut().zip(&self.starts) {
             let last = start + simulation.line().last();
             let (anchor, fairlead) = (state.u.position(*start), state.u.position(last));
-            simulation.settle_between(fairlead, anchor, state.clock.now)?;
+            simulation.resettle(fairlead, anchor, state.clock.now)?;
             let own = simulation.state();
             for c in 0..6 {
                 let nodes = own.u.nodes();

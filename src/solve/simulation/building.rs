@@ -199,6 +199,7 @@ impl Simulation {
             works: false,
             fresh: true,
             resting: false,
+            settled: false,
             may_be_planar,
             last: LastStep::default(),
             before: None,

@@ -6,6 +6,7 @@ use crate::rod::line::Line;
 use crate::rod::mesh::Mesh;
 use crate::rod::physics::{self, Surroundings};
 use crate::rod::state::{Field, State};
+use crate::sea::clock::Clock;
 use crate::solve::controller;
 use crate::solve::counters::{LastStep, StaticsReport};
 use crate::solve::newton::{Effort, Newton};
@@ -19,6 +20,9 @@ use nalgebra::Vector3;
 /// 1e-3 it shrinks with its power 0.8 besides, since the global error goes with about the local one to the power 2/3.
 /// Calibrated on the built-in case, where it gives about half the tolerance in the end tension.
 const ERROR_SHARE: f64 = 1.5e-2;
+
+/// Ends that have moved no farther than this share of the length leave a shape to go on from.
+const NEARBY: f64 = 0.1;
 
 impl Simulation {
     /// Puts the line in static equilibrium with its fairlead at a point, at rest, at a time.
@@ -63,6 +67,42 @@ impl Simulation {
     /// Where an end is held, or else where the scene has it: the place from which statics starts.
     pub(super) fn start_of(&self, node: usize, pinned: Vector3<f64>) -> Vector3<f64> {
         self.supports.holds.iter().find(|hold| hold.node == node).and_then(|hold| hold.reference).unwrap_or(pinned)
+    }
+
+    /// The same from the shape that it has, its ends a little elsewhere: Newton's method first, and where that does not lead to a (stable) equilibrium, all else.
+    pub(in crate::solve) fn resettle(
+        &mut self,
+        fairlead: Vector3<f64>,
+        anchor: Vector3<f64>,
+        time: f64,
+    ) -> Result<StaticsReport, Error> {
+        let last = self.line.last();
+        let moves = [anchor - self.moment.state.u.position(0), fairlead - self.moment.state.u.position(last)];
+        let length = self.line.mesh().length;
+        let near = moves.iter().all(|way| way.norm() < NEARBY * length);
+        if near && self.settled && self.mixed.is_none() && self.line.holding_nodes() == 0 && !self.line.is_planar() {
+            let before = self.moment.state.u.clone();
+            let state = &mut self.moment.state;
+            for node in 0..=last {
+                let share = self.line.mesh().node_arc_length(node) / length;
+                let place = state.u.position(node) + moves[0] * (1.0 - share) + moves[1] * share;
+                state.u.set_position(node, &place);
+            }
+            state.v.fill(0.0);
+            state.a.fill(0.0);
+            state.clock = Clock::at_rest(time);
+            self.anchor = anchor;
+            let balance = statics::approach(self.line.as_ref(), &mut self.newton, state);
+            if balance.converged() && (!self.pushes() || self.is_stable()) {
+                self.begin_anew(None);
+                let Balance { iterations, residual, .. } = balance;
+                return Ok(StaticsReport { iterations, residual, converged: true, others: false });
+            }
+            self.moment.state.u = before;
+        }
+        let report = self.settle_between(fairlead, anchor, time);
+        self.settled = report.is_ok();
+        report
     }
 
     /// A heap of slack line is coiled, and what can push may bow out: neither stays in its plane.
