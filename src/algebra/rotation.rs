@@ -9,20 +9,54 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+/// Sines and cosines of roll, pitch and yaw: what R, E and Ė are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Attitude {
+    roll: (f64, f64),
+    pitch: (f64, f64),
+    yaw: (f64, f64),
+}
+
+impl Attitude {
+    /// Of roll, pitch and yaw [rad].
+    pub fn of(angles: &Vector3<f64>) -> Attitude {
+        Attitude { roll: angles.x.sin_cos(), pitch: angles.y.sin_cos(), yaw: angles.z.sin_cos() }
+    }
+
+    /// R.
+    pub fn rotation(&self) -> Matrix3<f64> {
+        let Attitude { roll: (sr, cr), pitch: (sp, cp), yaw: (sy, cy) } = *self;
+        Matrix3::new(
+            cy * cp,
+            cy * sp * sr - sy * cr,
+            cy * sp * cr + sy * sr,
+            sy * cp,
+            sy * sp * sr + cy * cr,
+            sy * sp * cr - cy * sr,
+            -sp,
+            cp * sr,
+            cp * cr,
+        )
+    }
+
+    /// E: the rates of roll, pitch and yaw to ω.
+    pub fn rates_to_omega(&self) -> Matrix3<f64> {
+        let Attitude { pitch: (sp, cp), yaw: (sy, cy), .. } = *self;
+        Matrix3::new(cy * cp, -sy, 0.0, sy * cp, cy, 0.0, -sp, 0.0, 1.0)
+    }
+
+    /// Ė q̇: what α has beside E q̈ [rad/s²].
+    pub fn turning(&self, rates: &Vector3<f64>) -> Vector3<f64> {
+        let Attitude { pitch: (sp, cp), yaw: (sy, cy), .. } = *self;
+        let by_yaw = Vector3::new(-sy * cp, cy * cp, 0.0) * rates.x + Vector3::new(-cy, -sy, 0.0) * rates.y;
+        let by_pitch = Vector3::new(-cy * sp, -sy * sp, -cp) * rates.x;
+        by_yaw * rates.z + by_pitch * rates.y
+    }
+}
+
 /// R of roll, pitch and yaw [rad].
 pub fn of_angles(angles: &Vector3<f64>) -> Matrix3<f64> {
-    let ((sr, cr), (sp, cp), (sy, cy)) = (angles.x.sin_cos(), angles.y.sin_cos(), angles.z.sin_cos());
-    Matrix3::new(
-        cy * cp,
-        cy * sp * sr - sy * cr,
-        cy * sp * cr + sy * sr,
-        sy * cp,
-        sy * sp * sr + cy * cr,
-        sy * sp * cr - cy * sr,
-        -sp,
-        cp * sr,
-        cp * cr,
-    )
+    Attitude::of(angles).rotation()
 }
 
 /// Roll, pitch and yaw [rad] of R; pitch within ±π/2. At a pitch of ±π/2 only the sum of roll and yaw means anything.
@@ -33,16 +67,7 @@ pub fn angles(r: &Matrix3<f64>) -> Vector3<f64> {
 
 /// E: the rates of roll, pitch and yaw to ω.
 pub fn rates_to_omega(angles: &Vector3<f64>) -> Matrix3<f64> {
-    let ((sp, cp), (sy, cy)) = (angles.y.sin_cos(), angles.z.sin_cos());
-    Matrix3::new(cy * cp, -sy, 0.0, sy * cp, cy, 0.0, -sp, 0.0, 1.0)
-}
-
-/// Ė q̇: what α has beside E q̈ [rad/s²].
-pub fn turning(angles: &Vector3<f64>, rates: &Vector3<f64>) -> Vector3<f64> {
-    let ((sp, cp), (sy, cy)) = (angles.y.sin_cos(), angles.z.sin_cos());
-    let by_yaw = Vector3::new(-sy * cp, cy * cp, 0.0) * rates.x + Vector3::new(-cy, -sy, 0.0) * rates.y;
-    let by_pitch = Vector3::new(-cy * sp, -sy * sp, -cp) * rates.x;
-    by_yaw * rates.z + by_pitch * rates.y
+    Attitude::of(angles).rates_to_omega()
 }
 
 /// Rates of roll, pitch and yaw of ω (E⁻¹ ω) [rad/s]; not finite at a pitch of ±π/2.
@@ -121,7 +146,7 @@ mod tests {
         for t in [0.0, 0.6] {
             close(&w(t), &omega(|t| of_angles(&q(t)), t), 1e-8);
             let alpha = (w(t + 1e-4) - w(t - 1e-4)) / 2e-4;
-            close(&(rates_to_omega(&q(t)) * second + turning(&q(t), &rate(t))), &alpha, 1e-6);
+            close(&(rates_to_omega(&q(t)) * second + Attitude::of(&q(t)).turning(&rate(t))), &alpha, 1e-6);
             close(&omega_to_rates(&q(t), &w(t)), &rate(t), 1e-12);
             close(&angles(&of_angles(&q(t))), &q(t), 1e-12);
         }

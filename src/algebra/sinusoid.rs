@@ -28,13 +28,29 @@ impl Sinusoid {
 
     /// Value, rate and second rate at a time [s].
     pub fn at(&self, time: f64) -> [Vector3<f64>; 3] {
-        let (sin, cos) = (self.omega * time).sin_cos();
+        self.at_phase(&self.phase(time))
+    }
+
+    /// What all motions of this period and ramp share at a time [s].
+    pub fn phase(&self, time: f64) -> Phase {
+        Phase { sin_cos: (self.omega * time).sin_cos(), ramp: ramp_at(time, self.ramp) }
+    }
+
+    /// Value, rate and second rate.
+    pub fn at_phase(&self, phase: &Phase) -> [Vector3<f64>; 3] {
+        let Phase { sin_cos: (sin, cos), ramp: [s, s1, s2] } = *phase;
         let x = self.sine * sin + self.cosine * cos;
         let v = (self.sine * cos - self.cosine * sin) * self.omega;
         let a = -x * (self.omega * self.omega);
-        let [s, s1, s2] = ramp_at(time, self.ramp);
         [x * s, v * s + x * s1, a * s + v * (2.0 * s1) + x * s2]
     }
+}
+
+/// What sinusoidal motions of one period and ramp share at a time.
+#[derive(Debug, Clone, Copy)]
+pub struct Phase {
+    sin_cos: (f64, f64),
+    ramp: [f64; 3],
 }
 
 /// The ramp S and its first and second derivative; 1 without a ramp and after it.

@@ -4,7 +4,7 @@
 //! r = X + R a,   ṙ = V + ω × R a,   r̈ = A + α × R a + ω × (ω × R a)
 //! ```
 
-use crate::algebra::rotation;
+use crate::algebra::rotation::Attitude;
 use crate::algebra::sinusoid::Sinusoid;
 use crate::algebra::spline;
 use crate::scene::pose_file::PoseTable;
@@ -46,12 +46,13 @@ impl BodyMotion {
     /// From roll, pitch and yaw [rad], their rates and second rates.
     pub fn of_angles(reference: Kinematics, angles: [Vector3<f64>; 3]) -> BodyMotion {
         let [q, rate, second] = angles;
-        let turning = rotation::rates_to_omega(&q);
+        let attitude = Attitude::of(&q);
+        let turning = attitude.rates_to_omega();
         BodyMotion {
             reference,
-            rotation: rotation::of_angles(&q),
+            rotation: attitude.rotation(),
             omega: turning * rate,
-            alpha: turning * second + rotation::turning(&q, &rate),
+            alpha: turning * second + attitude.turning(&rate),
         }
     }
 
@@ -77,7 +78,7 @@ pub enum PosePath {
         /// Roll, pitch and yaw [rad].
         angles: Vector3<f64>,
     },
-    /// Sinusoidal motions, eased in, of position and angles about a pose.
+    /// Sinusoidal motions of position and angles about a pose, of one period and eased in together.
     Sinusoidal {
         /// Position [m] and angles [rad] of the pose.
         about: [Vector3<f64>; 2],
@@ -122,10 +123,13 @@ impl PosePath {
         let zero = Vector3::zeros();
         match self {
             PosePath::Fixed { position, angles } => [[*position, zero, zero], [*angles, zero, zero]],
-            PosePath::Sinusoidal { about, offsets } => [0, 1].map(|part: usize| {
-                let [x, v, a] = offsets[part].at(time);
-                [about[part] + x, v, a]
-            }),
+            PosePath::Sinusoidal { about, offsets } => {
+                let phase = offsets[0].phase(time);
+                [0, 1].map(|part: usize| {
+                    let [x, v, a] = offsets[part].at_phase(&phase);
+                    [about[part] + x, v, a]
+                })
+            }
             PosePath::Table(table) => of_table(table, time),
             PosePath::Polynomial { start, position, angles } => [position, angles].map(|terms| polynomial(terms, time - start)),
             PosePath::Variation { by, .. } => by.coordinates(time),

@@ -118,6 +118,11 @@ def farm(joined):
 def floats():
     scene = json.loads((ROOT / "examples/wave-energy-floats.json").read_text(encoding="utf-8"))
     scene["run"] = {"duration": 60.0, "output_step": 0.1}
+    # Deep enough for the floats to stay below the surface, which a point of MoorDyn does not know.
+    scene["environment"]["depth"] = 88.0
+    for line in scene["lines"]:
+        if line["name"].startswith("lower"):
+            line["anchor"][2] = -88.0
     return scene
 
 
@@ -174,8 +179,8 @@ rk2 tScheme
 {stiffness / d!r} kBot
 0.0 cBot
 1.0 dtIC
-300.0 TmaxIC
-4.0 CdScaleIC
+1000.0 TmaxIC
+20.0 CdScaleIC
 1e-5 threshIC
 ---------------------- END
 """
