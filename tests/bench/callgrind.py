@@ -9,7 +9,7 @@ from pathlib import Path
 from measure import Run
 
 #: All that happens between two output times; statics and output stay outside.
-COUNTED = "*Simulation::advance*"
+COUNTED = "*Simulation>::go"
 
 
 def ready():

@@ -4,7 +4,7 @@ docs/benchmarks.md.
     cargo build --release && python3 tests/bench/mooring.py
 
 Default settings, one core, everything in turn, the smallest of several times. (a) the built-in line alone and on a driven body; (b) eight lines on a vessel and
-each alone; (c) three lines at a free point and three alone; (d) three chains with a float at each joint (six lines), surge 2 m and heave 1 m of 10 s,
+each alone; (c) three lines at a free point, and each alone with its ends on the same way; (d) three chains with a float at each joint (six lines), surge 2 m and heave 1 m of 10 s,
 60 s, against MoorDyn with the same properties; (e) twenty lines at ten points.
 """
 
@@ -75,12 +75,10 @@ def eight():
     return {"environment": {"depth": 100.0}, "line_types": {"chain": CHAIN}, "lines": lines, "motion": MOTION, "run": {"duration": 120.0}}
 
 
-def star(joined):
-    """Three lines that meet 60 m down under a float, one of them moved at its upper end; or the same three with the meeting point fixed."""
+def star():
+    """Three lines that meet 60 m down under a float, one of them moved at its upper end."""
     rope = {"ea": 2e8, "mass": 30.0, "diameter": 0.14, "submerged_weight": 140.0, "drag": {"normal": 1.2}, "added_mass": {"normal": 1.0}}
     point = {"name": "joint", "position": [0, 0, -60], "mass": 3000.0, "volume": 20.0, "drag_area": 6.0, "added_mass": 8000.0}
-    if not joined:
-        point["motion"] = {"kind": "fixed"}
     ends = [([40.0, 0.0, -2.0], 72.0, "rope"), ([-350.0, 200.0, -150.0], 430.0, "chain"), ([-350.0, -200.0, -150.0], 430.0, "chain")]
     lines = [
         {"name": f"l{k}", "fairlead": at, "anchor": {"point": "joint"}, "sections": [{"type": kind, "length": length, "elements": 20}]}
@@ -96,15 +94,14 @@ def star(joined):
     }
 
 
-def farm(joined):
+def farm():
     """Ten shared points in a row, each held by a chain to the bed, joined by ropes to the next, the first by a driven end: twenty lines."""
-    scene = star(joined)
+    scene = star()
     lines, points = [], []
     for k in range(10):
         x = -200.0 * k
         points.append({
             "name": f"p{k}", "position": [x, 0, -40], "mass": 3000.0, "volume": 25.0, "drag_area": 6.0, "added_mass": 8000.0,
-            **({} if joined else {"motion": {"kind": "fixed"}}),
         })
         lines.append({"name": f"leg{k}", "fairlead": {"point": f"p{k}"}, "anchor": [x, 60.0, -150.0], "sections": [{"type": "rope", "length": 124.0, "elements": 20}]})
         fairlead = {"body": "ship", "at": [0, 0, 0]} if k == 0 else {"point": f"p{k - 1}"}
@@ -113,6 +110,20 @@ def farm(joined):
     scene |= {"lines": lines, "points": points}
     scene["bodies"][0]["position"] = [200.0, 0.0, -10.0]
     return scene
+
+
+def parted(scene, folder):
+    """The lines of a scene each for itself: its free points are driven along the way that they go in it."""
+    _, _, rows = run(scene)
+    alone = copy.deepcopy(scene)
+    for point in alone["points"]:
+        name = point["name"]
+        file = Path(folder, f"{name}.csv")
+        # At rest before the start, as in the run.
+        text = "".join(",".join([row["time"], *(row[f"{name}.{axis}"] for axis in "xyz")]) + "\n" for row in rows)
+        file.write_text("t,x,y,z\n" + text, encoding="utf-8")
+        point["motion"] = {"kind": "file", "path": str(file)}
+    return alone
 
 
 def floats():
@@ -276,10 +287,11 @@ def main():
     row("(b) eight lines, 120 s: on a vessel, alone", f"{1e3 * body:.1f} ms", f"{1e3 * alone:.1f} ms", f"{body / alone:.3f}", "1")
     micro = step_of_fmu()
     row("(b) doStep of 0.1 s of the ship's FMU, median", f"{micro:.0f} us", "", "", "100 us")
-    (joined, fixed), _ = turns([star(True), star(False)])
-    row("(c) three lines, 120 s: at a free point, at a fixed one", f"{1e3 * joined:.1f} ms", f"{1e3 * fixed:.1f} ms", f"{joined / fixed:.2f}", "1.5")
-    (farmed, lone), _ = turns([farm(True), farm(False)])
-    row("(e) twenty lines, 120 s: at ten free points, at fixed ones", f"{1e3 * farmed:.1f} ms", f"{1e3 * lone:.1f} ms", f"{farmed / lone:.2f}", "1.5")
+    with tempfile.TemporaryDirectory() as folder:
+        for what, scene in (("(c) three lines, 120 s: at a free point", star()), ("(e) twenty lines, 120 s: at ten free points", farm())):
+            (joined, alone), (one, other) = turns([scene, parted(scene, folder)])
+            row(f"{what}, each alone with its ends on the same way", f"{1e3 * joined:.1f} ms", f"{1e3 * alone:.1f} ms", f"{joined / alone:.2f}", "1.5")
+            print("steps", one["steps"], other["steps"], "iterations", one["newton_iterations"], other["newton_iterations"])
     head = ["what", "together", "apart", "ratio", "bar"]
     put("mooring", "python3 tests/bench/mooring.py", table(head, rows) + f"\n\nOne core of {machine()}.")
 

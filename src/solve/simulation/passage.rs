@@ -31,6 +31,8 @@ impl Simulation {
         self.go(until, &ends.fairlead, moving(&ends.anchor))
     }
 
+    // A function of its own in every build: `tests/bench/callgrind.py` counts what it takes.
+    #[inline(never)]
     fn go(&mut self, until: f64, path: &Path, anchor: Option<&Path>) -> Result<(), Error> {
         self.check_path(until, path, anchor)?;
         let begin = self.moment.state.clock.now;
