@@ -47,10 +47,12 @@ pub mod scene {
     pub mod bodies;
     pub mod cable;
     pub mod check;
+    pub mod load_file;
     pub mod motion_file;
     pub mod placing;
     pub mod pose_file;
     pub mod read;
+    mod rows;
     pub mod state;
     pub mod text;
     pub mod types;

@@ -171,7 +171,7 @@ fn two_free_bodies_and_a_line_keep_their_momentum() {
     let loaded = load(&scene);
     let part = partition::parts(&loaded.scene).remove(0);
     let ends = vec![Ends::of_scene(&loaded, 0)];
-    let mut group = Group::new(&loaded.scene, &part, &ends).unwrap_or_else(|error| panic!("{error}"));
+    let mut group = Group::new(&loaded, &part, &ends).unwrap_or_else(|error| panic!("{error}"));
     // Nothing weighs anything, so that nothing is out of balance that anybody could measure.
     let _ = group.settle(0.0);
     group.push(0, Vector3::new(0.3, 0.5, -0.2), Vector3::new(0.1, 0.2, -0.1));
@@ -228,7 +228,7 @@ fn a_vessel_inside_moves_as_one_outside() {
     let loaded = load(&scene(pull, turn));
     let part = partition::parts(&loaded.scene).remove(0);
     let ends: Vec<Ends> = (0..4).map(|index| Ends::of_scene(&loaded, index)).collect();
-    let mut inside = Group::new(&loaded.scene, &part, &ends).unwrap_or_else(|error| panic!("{error}"));
+    let mut inside = Group::new(&loaded, &part, &ends).unwrap_or_else(|error| panic!("{error}"));
     inside.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
     let start = inside.body(0);
     inside.apply(0, -Vector3::from(pull), -Vector3::from(turn));
@@ -343,7 +343,7 @@ fn ends_of_a_group_follow_the_paths_that_are_set() {
     let loaded = example("wave-energy-floats.json", &["solver.tolerance=1e-3"]);
     let part = partition::parts(&loaded.scene).remove(0);
     let ends: Vec<Ends> = part.lines.iter().map(|index| Ends::of_scene(&loaded, *index)).collect();
-    let make = || Group::new(&loaded.scene, &part, &ends).unwrap_or_else(|error| panic!("{error}"));
+    let make = || Group::new(&loaded, &part, &ends).unwrap_or_else(|error| panic!("{error}"));
     let (mut one, mut other) = (make(), make());
     for group in [&mut one, &mut other] {
         group.settle(0.0).unwrap_or_else(|error| panic!("{error}"));

@@ -18,7 +18,7 @@ fn group(loaded: &Loaded) -> Group {
     let parts = partition::parts(&loaded.scene);
     let part = parts.iter().find(|part| !part.is_alone()).expect("something free");
     let ends: Vec<Ends> = part.lines.iter().map(|index| Ends::of_scene(loaded, *index)).collect();
-    Group::new(&loaded.scene, part, &ends).unwrap_or_else(|error| panic!("{error}"))
+    Group::new(loaded, part, &ends).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Puts a group in equilibrium at t = 0.
@@ -251,4 +251,58 @@ fn a_free_top_keeps_energy_and_momentum_to_the_order_of_the_scheme() {
             "{scheme}: {orders:?}"
         );
     }
+}
+
+/// A load from a file on a body with a spring k and no damping: with F = F′ t up to t₁ and constant from there,
+/// x = F′/k (t - sin ωt/ω), then the same minus that of a second ramp from t₁; and M in yaw alike. Steps of the solver are bounded by 0.05 s and its
+/// tolerance of 1e-5, so within 1e-3 of the largest. A constant first row is the force of the equilibrium.
+#[test]
+fn a_load_from_a_file_moves_a_body_as_an_oscillator() {
+    let directory = std::env::temp_dir().join(format!("moorline-load-{}", std::process::id()));
+    std::fs::create_dir_all(&directory).expect("a directory");
+    let (mass, inertia, until, pull, turn) = (2.0e5, 5.0e6, 4.0, 3.0e4, 2.0e5);
+    let (k, yaw) = (1.5e5, 8.0e6);
+    let stiffness: Vec<Vec<f64>> = (0..6)
+        .map(|row| (0..6).map(|column| if row != column { 0.0 } else { [k, k, k, yaw, yaw, yaw][row] }).collect())
+        .collect();
+    let scene = json!({
+        "environment": {"depth": 100.0}, "line_types": {"thread": {"ea": 10.0, "mass": 1.0e-3, "diameter": 0.001, "submerged_weight": 0.001}},
+        "lines": [{"fairlead": {"body": "ship", "at": [0, 0, 0]}, "anchor": [0, 0, -100.0],
+            "sections": [{"type": "thread", "length": 120.0, "elements": 4}]}],
+        "bodies": [{"name": "ship", "motion": {"kind": "free"}, "mass": mass, "inertia": [inertia, inertia, inertia],
+            "stiffness": stiffness, "load": "load.csv"}],
+        "solver": {"tolerance": 1e-5, "max_step": 0.05}
+    });
+    let moved = |rows: &str| {
+        std::fs::write(directory.join("load.csv"), rows).expect("a file");
+        let loaded = read::parse(&scene.to_string(), "test", &directory, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let mut group = group(&loaded);
+        group.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
+        group
+    };
+    let ramp = |t: f64, rate: f64, k: f64, m: f64| {
+        let omega = (k / m).sqrt();
+        if t > 0.0 { rate / k * (t - (omega * t).sin() / omega) } else { 0.0 }
+    };
+    let mut moored = moved(&format!("t,fx,fy,fz,mx,my,mz\n0,0,0,0,0,0,0\n{until},{},0,0,0,0,{}\n", pull * until, turn * until));
+    let (mut worst, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for step in 1..=100 {
+        let t = 0.1 * f64::from(step);
+        moored.advance(t).unwrap_or_else(|error| panic!("{error}"));
+        let body = moored.body(0);
+        let found = [body.reference.position.x, moorline::algebra::rotation::angles(&body.rotation).z];
+        for (part, (rate, stiff, heavy)) in [(pull, k, mass), (turn, yaw, inertia)].into_iter().enumerate() {
+            let exact = ramp(t, rate, stiff, heavy) - ramp(t - until, rate, stiff, heavy);
+            worst[part] = worst[part].max((found[part] - exact).abs());
+            largest[part] = largest[part].max(exact.abs());
+        }
+    }
+    println!("off by {worst:?} of {largest:?}");
+    assert!(worst[0] < 1e-3 * largest[0] && worst[1] < 1e-3 * largest[1], "{worst:?} of {largest:?}");
+
+    let moored = moved(&format!("0,{pull},0,0,0,0,{turn}\n9,0,0,0,0,0,0\n"));
+    let body = moored.body(0);
+    let (x, angle) = (body.reference.position.x, moorline::algebra::rotation::angles(&body.rotation).z);
+    assert!((x * k / pull - 1.0).abs() < 1e-4 && (angle * yaw / turn - 1.0).abs() < 1e-4, "{x} m, {angle} rad");
+    std::fs::remove_dir_all(&directory).expect("a directory");
 }

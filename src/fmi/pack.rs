@@ -136,6 +136,17 @@ pub fn pack(scene: &Scene, name: &str, naming: Naming, libraries: &Libraries, ou
             format!("the FMU's library ({names}) does not lie beside the program; `cargo build --release` puts it there");
         return Err(Error::File { path: program.display().to_string(), reason });
     }
+    if let Some(index) = scene.bodies.iter().position(|body| body.is_free() && body.load.is_some()) {
+        return Err(Error::Value {
+            file: out.display().to_string(),
+            place: format!("bodies[{index}].load"),
+            value: String::from("a file"),
+            allowed: format!(
+                "an FMU has its loads from the master, as `{}.applied_force` and `.applied_moment`; leave the file out",
+                scene.bodies[index].name
+            ),
+        });
+    }
     let scene = self_contained(scene);
     let interface = Interface::new(&scene);
     check_names(&interface, naming, name)?;

@@ -15,9 +15,11 @@ use crate::rod::cylinder::{BodyState, Cylinder, Load, Surround};
 use crate::rod::motion::{Motion, Weights};
 use crate::rod::seabed::Plane;
 use crate::scene::bodies;
+use crate::scene::load_file::LoadTable;
 use crate::scene::types::Environment;
 use crate::sea::clock::Clock;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use std::sync::Arc;
 
 /// The body.
 #[derive(Debug, Clone)]
@@ -34,6 +36,8 @@ pub struct Rigid {
     pub inertia: Matrix3<f64>,
     /// Force applied by the master [N].
     pub applied: Load,
+    /// Force and moment over time, where a file gives them.
+    pub in_time: Option<Arc<LoadTable>>,
     cylinders: Vec<Cylinder>,
     around: Surround,
     volume: f64,
@@ -108,6 +112,7 @@ impl Rigid {
             centre,
             inertia,
             applied: Load::zero(),
+            in_time: None,
             cylinders: body.cylinders.iter().map(of).collect(),
             around,
             volume: body.volume,
@@ -142,6 +147,11 @@ impl Rigid {
     pub fn acting(&self, clock: Clock, body: &BodyState) -> Load {
         let mut load =
             Load { force: self.constant.force + self.applied.force, moment: self.constant.moment + self.applied.moment };
+        if let Some(table) = &self.in_time {
+            let [force, moment] = table.at(clock.now);
+            load.force += force;
+            load.moment += moment;
+        }
         let g = self.around.gravity;
         let hydrostatic = self.stiffness.is_none();
         if hydrostatic {

@@ -65,6 +65,11 @@ pub struct Body {
     /// Constant moment [N·m]. Default 0.
     #[serde(default)]
     pub moment: Triple,
+    /// Path of a CSV file, relative to the scene file, with columns t,fx,fy,fz,mx,my,mz in s, N and N·m: force on the reference point and
+    /// moment along global axes, linear in time between its rows. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1))]
+    pub load: Option<String>,
 }
 
 /// Six by six numbers, row by row.

@@ -1,11 +1,11 @@
 //! A body's motion from a CSV file: `t,x,y,z,roll,pitch,yaw` in s, m and deg; absolute poses, z up.
 //!
-//! A first line with these names is allowed, and so are empty lines and comments after `#`. Between the rows the pose is a cubic spline of its six
-//! numbers, so C2; outside them the body rests. Angles may wind on; a jump of about a turn from row to row is taken for the same angle.
+//! Between the rows the pose is a cubic spline of its six numbers, so C2; outside them the body rests. Angles may wind on; a jump of about a turn from row to row is taken for the same angle.
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
 
 use crate::algebra::spline;
 use crate::error::Error;
+use crate::scene::rows;
 use crate::scene::text::{decode, read_bytes};
 use std::path::Path;
 
@@ -39,64 +39,17 @@ pub fn read(path: &Path) -> Result<PoseTable, Error> {
 
 /// Reads the text of a motion file; `file` is for messages.
 pub fn parse(text: &str, file: &str) -> Result<PoseTable, Error> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let refuse = |line: usize, value: String, allowed: &str| {
-        Err(Error::Value { file: file.into(), place: format!("line {line}"), value, allowed: allowed.into() })
-    };
+    let rows = rows::read(text, file, COLUMNS, "s, m and deg", "a motion")?;
     let (mut times, mut values): (Vec<f64>, [Vec<f64>; 6]) = (Vec::new(), Default::default());
-    let mut first = true;
-    for (index, line) in text.lines().enumerate() {
-        let content = line.split('#').next().unwrap_or_default().trim();
-        if content.is_empty() {
-            continue;
-        }
-        let number = index + 1;
-        let fields: Vec<&str> = content.split(',').map(|field| field.trim().trim_matches('"').trim()).collect();
-        if fields.len() != COLUMNS.len() {
-            return refuse(number, format!("a line of {} columns", fields.len()), "it must be 7 columns t,x,y,z,roll,pitch,yaw");
-        }
-        let heading = std::mem::take(&mut first) && fields[0].parse::<f64>().is_err();
-        if heading {
-            let known = |(field, name): (&&str, &&str)| {
-                field.eq_ignore_ascii_case(name) || (*name == "t" && field.eq_ignore_ascii_case("time"))
-            };
-            match fields.iter().zip(&COLUMNS).position(|pair| !known(pair)) {
-                Some(wrong) => {
-                    let allowed = "the columns must be t,x,y,z,roll,pitch,yaw in this order, in s, m and deg";
-                    return refuse(number, format!("column {} \"{}\"", wrong + 1, fields[wrong]), allowed);
-                }
-                None => continue,
-            }
-        }
-        let mut row = [0.0; 7];
-        for ((value, field), name) in row.iter_mut().zip(&fields).zip(COLUMNS) {
-            match field.parse::<f64>() {
-                Ok(read) if read.abs() <= 1.0e15 => *value = read,
-                _ => return refuse(number, format!("{name} = \"{field}\""), "it must be a finite number"),
-            }
-        }
+    for (number, row) in rows {
+        let refuse = |value: String, allowed: &str| rows::refuse(file, number, value, allowed);
         if !(row[5].abs() <= STEEPEST) {
-            return refuse(
-                number,
-                format!("pitch = {} deg", row[5]),
-                "it must lie within ±89 deg, where roll and yaw are defined",
-            );
+            return refuse(format!("pitch = {} deg", row[5]), "it must lie within ±89 deg, where roll and yaw are defined");
         }
         if let Some(before) = times.last() {
-            if !(row[0] > *before) {
-                return refuse(
-                    number,
-                    format!("t = {}", row[0]),
-                    &format!("times must rise, and the row before has t = {before}"),
-                );
-            }
             let moved = (0..3).map(|axis| (row[axis + 1] - values[axis][times.len() - 1]).powi(2)).sum::<f64>().sqrt();
             if !(moved / (row[0] - before) <= FASTEST) {
-                return refuse(
-                    number,
-                    format!("a move of {moved:.3} m"),
-                    "a body moves at most 100 m/s; is a unit or a sign wrong?",
-                );
+                return refuse(format!("a move of {moved:.3} m"), "a body moves at most 100 m/s; is a unit or a sign wrong?");
             }
         }
         for axis in 0..6 {
@@ -106,16 +59,12 @@ pub fn parse(text: &str, file: &str) -> Result<PoseTable, Error> {
                 let turn = (value - last).to_degrees();
                 if !(turn.abs() <= FARTHEST_TURN) {
                     let (name, allowed) = (COLUMNS[axis + 1], "a body turns at most 90 deg from row to row; give more rows");
-                    return refuse(number, format!("a turn in {name} of {turn:.1} deg"), allowed);
+                    return refuse(format!("a turn in {name} of {turn:.1} deg"), allowed);
                 }
             }
             values[axis].push(value);
         }
         times.push(row[0]);
-    }
-    if times.len() < 2 {
-        let found = format!("a file of {} rows", times.len());
-        return refuse(text.lines().count().max(1), found, "a motion needs at least 2 rows t,x,y,z,roll,pitch,yaw");
     }
     let curvatures = std::array::from_fn(|axis| spline::curvatures(&times, &values[axis]));
     Ok(PoseTable { times, values, curvatures })

@@ -10,7 +10,7 @@ use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
 use crate::scene::state::LineState;
 use crate::scene::text::{char_start, decode, line_and_column, read_bytes};
 use crate::scene::types::{Motion, Scene, Scheme};
-use crate::scene::{check, motion_file, pose_file};
+use crate::scene::{check, load_file, motion_file, pose_file};
 use place::{Place, Step, shortened};
 use serde_json::Value;
 use setting::Applied;
@@ -36,6 +36,8 @@ pub struct Loaded {
     pub motion: Option<Arc<motion_file::Table>>,
     /// Motions of bodies from files, by body; none where it is of another kind.
     pub body_motions: Vec<Option<Arc<pose_file::PoseTable>>>,
+    /// Loads on bodies from files, by body; none where there is no file.
+    pub body_loads: Vec<Option<Arc<load_file::LoadTable>>>,
     /// Motions of points from files, by point.
     pub point_motions: Vec<Option<Arc<motion_file::Table>>>,
     /// The CABLE file that the scene was read from, else none.
@@ -55,6 +57,7 @@ impl Loaded {
             directory: PathBuf::new(),
             motion: None,
             body_motions: Vec::new(),
+            body_loads: Vec::new(),
             point_motions: Vec::new(),
             deck: None,
             state: None,
@@ -92,6 +95,7 @@ pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resul
         directory: directory.to_path_buf(),
         motion: None,
         body_motions: Vec::new(),
+        body_loads: Vec::new(),
         point_motions: Vec::new(),
         deck: None,
         state: None,
@@ -122,6 +126,7 @@ fn parse_deck(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resu
         directory: directory.to_path_buf(),
         motion: None,
         body_motions: Vec::new(),
+        body_loads: Vec::new(),
         point_motions: Vec::new(),
         deck,
         state,
@@ -158,9 +163,11 @@ fn typed(value: &Value, source: &Source) -> Result<Scene, Error> {
     Ok(scene)
 }
 
-/// Reads the motion files that a checked scene names.
+/// Reads the files of motions and loads that a checked scene names.
 fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
     for body in &loaded.scene.bodies {
+        let load = body.load.as_ref().map(|path| load_file::read(&loaded.directory.join(path)).map(Arc::new));
+        loaded.body_loads.push(load.transpose()?);
         let BodyMotion::File { path } = &body.motion else {
             loaded.body_motions.push(None);
             continue;

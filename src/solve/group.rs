@@ -10,6 +10,7 @@ use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::{Link, Links, System};
 use crate::scene::bodies::Mount;
+use crate::scene::read::Loaded;
 use crate::scene::types::{Attachment, Scene, Surface};
 use crate::sea::clock::Clock;
 use crate::sea::current::Current;
@@ -88,8 +89,12 @@ const ALONE: f64 = 1.0e-2;
 impl Group {
     /// The part `together` of a checked scene; `ends` are the paths of the ends of its lines, in their order, of which those on what is free
     /// do not count.
-    pub fn new(scene: &Scene, together: &Together, ends: &[Ends]) -> Result<Group, Error> {
+    pub fn new(loaded: &Loaded, together: &Together, ends: &[Ends]) -> Result<Group, Error> {
+        let scene = &loaded.scene;
         let mut group = Group::on_meshes(scene, together, ends)?;
+        for (number, body) in together.bodies.iter().enumerate() {
+            group.network.bodies[number].in_time = loaded.body_loads.get(*body).cloned().flatten();
+        }
         // Meshes are made for lines as the scene puts their ends; free ones come to rest elsewhere.
         let start = ends.first().map_or(0.0, |_| scene.run.start);
         if group.settle(start).is_ok() {
@@ -264,6 +269,7 @@ impl Group {
         for (number, body) in self.together.bodies.iter().enumerate() {
             let rigid = &mut self.network.bodies[number];
             *rigid = Rigid::new(&scene.bodies[*body], &scene.environment, around.clone(), rigid.node, rigid.frame);
+            rigid.in_time.clone_from(&other.network.bodies[number].in_time);
         }
         self.others = other.others;
         self.moment.state.frames.clone_from(&other.moment.state.frames);

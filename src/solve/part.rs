@@ -34,7 +34,7 @@ impl Part {
                 let simulation = Box::new(Simulation::on_ends(&loaded.scene, *index, Some(&ends))?);
                 Ok(Part::Alone { index: [*index], simulation, ends })
             }
-            _ => Ok(Part::Group(Box::new(Group::new(&loaded.scene, together, &ends)?))),
+            _ => Ok(Part::Group(Box::new(Group::new(loaded, together, &ends)?))),
         }
     }
 

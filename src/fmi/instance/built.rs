@@ -116,7 +116,7 @@ impl Built {
                 }
                 continue;
             }
-            let mut made = Group::new(scene, &together, &ends)?;
+            let mut made = Group::new(&loaded, &together, &ends)?;
             made.sum_up_work();
             for (local, (index, ends)) in together.lines.iter().zip(ends).enumerate() {
                 let limits = limits(scene, *index, made.line(local));

@@ -73,6 +73,11 @@ pub(super) fn bodies(scene: &Scene, file: &str) -> Result<(), Error> {
         for (axis, value) in body.quadratic_damping.iter().flatten().enumerate() {
             not_negative(file, &at(&format!("quadratic_damping[{axis}]")), *value, "")?;
         }
+        if let Some(path) = &body.load
+            && path.trim().is_empty()
+        {
+            return refuse(file, at("load"), "\"\"", "it names a CSV file of loads, t,fx,fy,fz,mx,my,mz");
+        }
         cylinders(body, file, &at)?;
         motion_of_body(body, file, &at)?;
         if body.is_free() {
