@@ -19,39 +19,9 @@ use std::fmt::Write;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use support::random::Random;
 
-/// A small generator, so that the scenes are the same everywhere (xorshift, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64) -> Random {
-        let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-        (0..5).for_each(|_| {
-            random.share();
-        });
-        random
-    }
-
-    fn share(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.share()
-    }
-
-    /// Evenly distributed in the logarithm.
-    fn magnitude(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-
-    fn triple(&mut self, size: f64) -> Triple {
-        [(); 3].map(|()| size * self.between(-1.0, 1.0))
-    }
-}
+mod support;
 
 fn line_type(random: &mut Random) -> LineType {
     let mass = random.magnitude(0.05, 500.0);
