@@ -80,10 +80,10 @@ fn the_schema_reads_the_model_description() {
         };
         assert_eq!(kind, definition.kind, "{}", variable.name);
         let causality = match definition.meaning {
-            Meaning::Input(_) => Causality::Input,
-            Meaning::Output(_) => Causality::Output,
+            Meaning::Input(_) | Meaning::BodyInput(_) => Causality::Input,
+            Meaning::Output(_) | Meaning::BodyOutput(_) => Causality::Output,
             Meaning::Local(_) => Causality::Local,
-            Meaning::Parameter(_) | Meaning::Place(_) => Causality::Parameter,
+            Meaning::Parameter(_) | Meaning::Place(_) | Meaning::Choice(_) => Causality::Parameter,
         };
         assert_eq!(variable.causality, causality, "{}", variable.name);
         let start = match &variable.elem {
