@@ -65,6 +65,7 @@ pub mod rod {
     pub mod bending;
     pub mod body;
     pub mod catenary;
+    pub mod clamp;
     pub mod cylinder;
     pub mod elasticity;
     pub mod element;
@@ -79,6 +80,7 @@ pub mod rod {
     pub mod morison;
     pub mod motion;
     pub mod physics;
+    pub mod pose;
     pub mod properties;
     pub mod rigid;
     pub mod seabed;
@@ -135,7 +137,6 @@ pub mod solve {
     pub mod part;
     pub mod partition;
     pub mod plane;
-    pub mod pose;
     pub mod relaxation;
     pub mod rest;
     pub mod rounding;

@@ -1,5 +1,6 @@
 //! The mooring as a whole: driven bodies, stiffness, networks and free bodies against laws, closed forms and a monolithic integration.
 
+use moorline::rod::pose::PosePath;
 use moorline::scene::read::{self, Loaded};
 use moorline::solve::group::{EndOf, Group};
 use moorline::solve::loads;
@@ -7,7 +8,6 @@ use moorline::solve::mooring::Mooring;
 use moorline::solve::motion::{Ends, Path};
 use moorline::solve::part::Part;
 use moorline::solve::partition;
-use moorline::solve::pose::PosePath;
 use moorline::solve::simulation::{Outputs, Simulation};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};

@@ -70,7 +70,12 @@ fn coupling(scene: &Scene, parts: &[Together]) -> String {
         let lines = names(part.lines.iter().map(|line| &scene.lines[*line].name).collect());
         let bodies = part.bodies.iter().map(|body| &scene.bodies[*body].name);
         let free = names(bodies.chain(part.points.iter().map(|point| &scene.points[*point].name)).collect());
-        let _ = writeln!(text, "  together  {lines}: they meet at what is free, {free}, and are solved for with it");
+        let why = if free.is_empty() {
+            String::from("an end is clamped to a driven body, whose turns bend it")
+        } else {
+            format!("they meet at what is free, {free}, and are solved for with it")
+        };
+        let _ = writeln!(text, "  together  {lines}: {why}");
     }
     let alone: Vec<&String> = parts
         .iter()

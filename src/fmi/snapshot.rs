@@ -20,7 +20,7 @@ use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
 
 const MAGIC: &[u8; 8] = b"MOORLINE";
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 const HEADER: usize = 8 + 4 + 16 + 8;
 const CHECKSUM: usize = 16;
 
@@ -207,6 +207,8 @@ impl End {
             time: 0.0,
             fairlead: zero,
             force: zero,
+            moment: zero,
+            anchor_moment: zero,
             tension: 0.0,
             anchor: zero,
             anchor_force: zero,
@@ -244,7 +246,9 @@ impl End {
         writer.count(self.told.0 as usize);
         let o = &self.outputs;
         writer.real(o.time);
-        [o.fairlead, o.force, o.anchor, o.anchor_force].into_iter().for_each(|vector| writer.triple(vector.into()));
+        [o.fairlead, o.force, o.moment, o.anchor, o.anchor_force, o.anchor_moment]
+            .into_iter()
+            .for_each(|vector| writer.triple(vector.into()));
         let scalars = [o.tension, o.anchor_tension, o.tension_max, o.declination, o.azimuth, o.grounded_length, o.work];
         scalars.into_iter().for_each(|value| writer.real(value));
         writer.count(self.last.substeps);
@@ -262,13 +266,16 @@ impl End {
         let told = Told(reader.number()?);
         let time = reader.real()?;
         let mut vector = || reader.triple().map(Vector3::from);
-        let (fairlead, force, anchor, anchor_force) = (vector()?, vector()?, vector()?, vector()?);
+        let (fairlead, force, moment) = (vector()?, vector()?, vector()?);
+        let (anchor, anchor_force, anchor_moment) = (vector()?, vector()?, vector()?);
         let outputs = Outputs {
             time,
             fairlead,
             force,
+            moment,
             anchor,
             anchor_force,
+            anchor_moment,
             tension: reader.real()?,
             anchor_tension: reader.real()?,
             tension_max: reader.real()?,

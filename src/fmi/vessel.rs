@@ -12,7 +12,7 @@ use crate::fmi::inputs::Inputs;
 use crate::fmi::segment::Segment;
 use crate::fmi::variables::Interpolation;
 use crate::fmi::warnings::Told;
-use crate::solve::pose::PosePath;
+use crate::rod::pose::PosePath;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 

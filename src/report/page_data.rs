@@ -220,7 +220,7 @@ fn edges(record: &Record, index: usize) -> Vec<[[f64; 3]; 2]> {
         }
     }
     let on = |mount: &Option<Mount>| match mount {
-        Some(Mount::Body { body: name, at }) if *name == body.name => Some(*at),
+        Some(Mount::Body { body: name, at, .. }) if *name == body.name => Some(*at),
         _ => None,
     };
     let mut places: Vec<[f64; 3]> =

@@ -13,6 +13,8 @@ pub fn outputs(time: f64, tension: f64) -> Outputs {
         anchor: Vector3::zeros(),
         anchor_force: Vector3::zeros(),
         anchor_tension: 0.0,
+        moment: Vector3::zeros(),
+        anchor_moment: Vector3::zeros(),
         tension_max: tension,
         declination: 0.0,
         azimuth: 0.0,

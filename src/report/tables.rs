@@ -271,6 +271,8 @@ mod tests {
         Outputs {
             fairlead: Vector3::new(1.0, -0.0, 1.0e-9),
             anchor_tension: 1.0 / 3.0,
+            moment: Vector3::zeros(),
+            anchor_moment: Vector3::zeros(),
             grounded_length: 689.0,
             ..sample::outputs(0.3, tension)
         }

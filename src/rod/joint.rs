@@ -12,7 +12,8 @@ use crate::rod::mesh::Mesh;
 use crate::rod::properties::Properties;
 use nalgebra::{Matrix3, Vector3};
 
-const STIFFER: f64 = 1.0e4;
+/// κ over the EI/l of what is beside it.
+pub const STIFFER: f64 = 1.0e4;
 
 /// κ of each element [N·m]: zero where it is no joint or a side has no bending stiffness.
 pub fn stiffnesses(mesh: &Mesh) -> Vec<f64> {

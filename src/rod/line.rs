@@ -8,6 +8,7 @@ use crate::algebra::triple::Triple;
 use crate::rod::awash::Surface;
 use crate::rod::bending::Bending;
 use crate::rod::body::Body;
+use crate::rod::clamp::Clamp;
 use crate::rod::element::{self, Table};
 use crate::rod::element_tangent;
 use crate::rod::hold::Hold;
@@ -15,6 +16,7 @@ use crate::rod::joint;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
 use crate::rod::motion::{Motion, Weights};
+use crate::rod::pose::PosePath;
 use crate::rod::seabed::Bed;
 use crate::rod::state::Field;
 use crate::rod::stretch::Stretch;
@@ -23,6 +25,7 @@ use crate::rod::touching::Ground;
 use nalgebra::Vector3;
 use std::marker::PhantomData;
 use std::ops::AddAssign;
+use std::sync::Arc;
 
 /// A discrete line, as far as more is asked of it than a time step needs.
 pub trait Line: System {
@@ -45,6 +48,10 @@ pub trait Line: System {
     fn held_bodies(&self, node: usize, at: &Motion) -> Vector3<f64>;
     /// Force on what holds the fairlead [N]: of the line, and of the bodies at the fairlead where it is pinned.
     fn end_force(&self, at: &Motion) -> Vector3<f64>;
+    /// Moment on what holds an end that is clamped [N·m]; zero at any other node.
+    fn end_moment(&self, node: usize, at: &Motion) -> Vector3<f64>;
+    /// Lets a clamped end go with the motion of a body.
+    fn clamp_to(&mut self, node: usize, body: &Arc<PosePath>);
     /// Unstretched length of element `e` in contact with the bed [m].
     fn touching_length(&self, u: &Field, e: usize) -> f64;
     /// Unstretched length in contact with the bed [m].
@@ -81,6 +88,8 @@ pub struct Supports {
     pub bodies: Vec<Body>,
     /// Springs, dampers, locks and dead forces at nodes.
     pub holds: Vec<Hold>,
+    /// Clamped ends.
+    pub clamps: Vec<Clamp>,
 }
 
 impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
@@ -167,6 +176,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
         for hold in &self.supports.holds {
             out.set_position(hold.node, &(out.position(hold.node) + hold.force(at)));
         }
+        for clamp in &self.supports.clamps {
+            out.set_slope(clamp.node, &(out.slope(clamp.node) + clamp.moment(at)));
+        }
         self.share_ties(out);
         self.project(out);
     }
@@ -196,6 +208,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
         }
         for hold in &self.supports.holds {
             matrix.diagonal[hold.node].fixed_view_mut::<3, 3>(0, 0).add_assign(hold.tangent(weights));
+        }
+        for clamp in &self.supports.clamps {
+            matrix.diagonal[clamp.node].fixed_view_mut::<3, 3>(3, 3).add_assign(clamp.tangent(at, weights));
         }
         self.supports.holds.iter().filter(|hold| hold.locks()).for_each(|hold| hold.project_matrix(matrix));
     }
@@ -266,6 +281,20 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
     fn end_force(&self, at: &Motion) -> Vector3<f64> {
         let line = Vector3::from(self.element_forces(at, self.table.len() - 1)[2]);
         -line - self.held_bodies(self.last(), at)
+    }
+
+    fn end_moment(&self, node: usize, at: &Motion) -> Vector3<f64> {
+        if !self.supports.clamps.iter().any(|clamp| clamp.node == node) {
+            return Vector3::zeros();
+        }
+        // What the elements leave at the slope is what the clamp must give, whatever the clamp is at.
+        let (e, end) = if node == 0 { (0, 1) } else { (node - 1, 3) };
+        let on_slope = Vector3::from(self.element_forces(at, e)[end]) * self.table.length_of(e);
+        -at.u.slope(node).cross(&on_slope)
+    }
+
+    fn clamp_to(&mut self, node: usize, body: &Arc<PosePath>) {
+        self.supports.clamps.iter_mut().filter(|clamp| clamp.node == node).for_each(|clamp| clamp.body = Arc::clone(body));
     }
 
     fn lay(&self, u: &Field, holds: &mut Field) {

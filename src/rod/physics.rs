@@ -8,18 +8,24 @@ use crate::algebra::sinusoid::Sinusoid;
 use crate::rod::awash::Surface;
 use crate::rod::bending::{Bending, Flexible, Stiff};
 use crate::rod::body::Body;
+use crate::rod::clamp::Clamp;
 use crate::rod::elasticity::{Hooke, Tabulated};
 use crate::rod::friction::Friction;
 use crate::rod::hold::{self, Hold};
+use crate::rod::joint;
 use crate::rod::line::{Line, Rod, Supports};
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{NoWater, Sea, Still, Water};
+use crate::rod::pose::PosePath;
 use crate::rod::seabed::{Plane, Resistance};
 use crate::rod::stretch::{Exact, Report, Stretch};
 use crate::rod::touching::Ground;
+use crate::scene::bodies::Stiffness;
 use crate::scene::types::{self, Environment, Scene};
 use crate::sea::current::Current;
 use crate::sea::waves::Waves;
+use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// Surroundings of a line, decided once.
 #[derive(Debug, Clone)]
@@ -191,6 +197,21 @@ pub fn supports(scene: &Scene, line: &types::Line, mesh: &Mesh) -> Supports {
                 force: constraint.force.into(),
             });
         }
+    }
+    for (on, node, sign) in [(&line.anchor_on, 0, 1.0), (&line.fairlead_on, last, -1.0)] {
+        let Some((clamp, number)) = on.as_ref().and_then(|on| Some((on.clamp()?, scene.body(on.name())?))) else { continue };
+        let body = &scene.bodies[number];
+        let element = if node == 0 { 0 } else { mesh.elements.len() - 1 };
+        let stiffness = match clamp.stiffness {
+            Stiffness::Of(stiffness) => stiffness,
+            Stiffness::Rigid(_) => joint::STIFFER * mesh.properties_of(element).ei / mesh.elements[element].length,
+        };
+        supports.clamps.push(Clamp {
+            node,
+            stiffness,
+            direction: Vector3::from(clamp.direction).normalize() * sign,
+            body: Arc::new(PosePath::Fixed { position: body.position.into(), angles: body.attitude() }),
+        });
     }
     let released = |node: usize| supports.holds.iter().any(|hold| hold.node == node);
     supports.fixed =

@@ -244,12 +244,49 @@ pub enum Mount {
         body: String,
         /// The place in the body's own axes [m].
         at: Triple,
+        /// How the end is clamped there. Default: it is pinned.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        clamp: Option<Clamp>,
     },
     /// A point.
     Point {
         /// Name of the point.
         point: String,
     },
+}
+
+/// How an end is clamped.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Clamp {
+    /// Direction in which the line leaves the body, in its own axes [-]; of any length.
+    pub direction: Triple,
+    /// Rotational stiffness [N·m/rad], > 0, or "clamped": it does not give way. Default: clamped.
+    #[serde(default)]
+    pub stiffness: Stiffness,
+}
+
+/// How stiff a clamp is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a number or \"clamped\"")]
+pub enum Stiffness {
+    /// So much [N·m/rad].
+    Of(f64),
+    /// It does not give way.
+    Rigid(Rigid),
+}
+
+/// The word for a clamp that does not give way.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rigid {
+    /// It does not give way.
+    Clamped,
+}
+
+impl Default for Stiffness {
+    fn default() -> Stiffness {
+        Stiffness::Rigid(Rigid::Clamped)
+    }
 }
 
 /// An end of a line as it is written: coordinates, or what it hangs on.
@@ -268,6 +305,8 @@ struct MountKeys {
     body: Option<String>,
     at: Option<Triple>,
     point: Option<String>,
+    direction: Option<Triple>,
+    stiffness: Option<Stiffness>,
 }
 
 impl<'de> Deserialize<'de> for End {
@@ -287,11 +326,19 @@ impl<'de> Deserialize<'de> for End {
             fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<End, A::Error> {
                 let keys = MountKeys::deserialize(de::value::MapAccessDeserializer::new(entries))?;
                 match keys {
-                    MountKeys { body: Some(body), at, point: None } => {
+                    MountKeys { body: Some(body), at, point: None, direction, stiffness } => {
                         let at = at.ok_or_else(|| de::Error::missing_field("at"))?;
-                        Ok(End::On(Mount::Body { body, at }))
+                        let clamp = match (direction, stiffness) {
+                            (None, Some(_)) => return Err(de::Error::missing_field("direction")),
+                            (direction, stiffness) => {
+                                direction.map(|direction| Clamp { direction, stiffness: stiffness.unwrap_or_default() })
+                            }
+                        };
+                        Ok(End::On(Mount::Body { body, at, clamp }))
                     }
-                    MountKeys { body: None, at: None, point: Some(point) } => Ok(End::On(Mount::Point { point })),
+                    MountKeys { body: None, direction: Some(_), .. } => Err(de::Error::unknown_field("direction", &["point"])),
+                    MountKeys { body: None, stiffness: Some(_), .. } => Err(de::Error::unknown_field("stiffness", &["point"])),
+                    MountKeys { body: None, at: None, point: Some(point), .. } => Ok(End::On(Mount::Point { point })),
                     MountKeys { point: Some(_), body: Some(_), .. } => Err(de::Error::unknown_field("point", &["body", "at"])),
                     MountKeys { point: Some(_), at: Some(_), .. } => Err(de::Error::unknown_field("at", &["point"])),
                     _ => Err(de::Error::missing_field("body")),
@@ -323,6 +370,14 @@ impl JsonSchema for End {
 }
 
 impl Mount {
+    /// How it is clamped there.
+    pub fn clamp(&self) -> Option<&Clamp> {
+        match self {
+            Mount::Body { clamp, .. } => clamp.as_ref(),
+            Mount::Point { .. } => None,
+        }
+    }
+
     /// Name of what it is on.
     pub fn name(&self) -> &str {
         match self {

@@ -38,7 +38,7 @@ impl Scene {
     pub fn place_ends(&mut self) {
         let (bodies, points) = (&self.bodies, &self.points);
         let place = |on: &Option<Mount>| match on {
-            Some(Mount::Body { body, at }) => bodies.iter().find(|own| own.name == *body).map(|own| own.place(at).into()),
+            Some(Mount::Body { body, at, .. }) => bodies.iter().find(|own| own.name == *body).map(|own| own.place(at).into()),
             Some(Mount::Point { point }) => points.iter().find(|own| own.name == *point).map(|own| own.position),
             None => None,
         };
@@ -72,7 +72,7 @@ impl Scene {
 
     fn motion_on(&self, on: &Mount) -> Motion {
         match on {
-            Mount::Body { body, at } => {
+            Mount::Body { body, at, .. } => {
                 let Some(body) = self.body(body).map(|number| &self.bodies[number]) else { return Motion::Fixed };
                 let BodyMotion::Sinusoidal { period, sine, cosine, ramp } = &body.motion else { return Motion::Fixed };
                 let angles = body.attitude();

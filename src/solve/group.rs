@@ -6,6 +6,7 @@ use crate::rod::line::Supports;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Sea;
 use crate::rod::physics::{self, Surroundings};
+use crate::rod::pose::{BodyMotion, Kinematics};
 use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::{Link, Links, System};
@@ -21,13 +22,13 @@ use crate::solve::network::Network;
 use crate::solve::newton::{Criteria, Newton};
 use crate::solve::outputs;
 use crate::solve::partition::Together;
-use crate::solve::pose::{BodyMotion, Kinematics};
 use crate::solve::scheme::{Bench, Moment, Stages};
 use crate::solve::simulation::{Counters, LastStep, NodeOutput, Outputs, Simulation};
 use crate::solve::snapshot::Snapshot;
 use nalgebra::{Matrix3, Vector3};
 
 mod statics;
+mod whole;
 
 /// Outputs of the lines of a group, motions of its bodies and of its points.
 type Everything = (Vec<Outputs>, Vec<Vec<Vector3<f64>>>, Vec<[Vector3<f64>; 2]>);
@@ -140,6 +141,9 @@ impl Group {
                 node: start + hold.node,
                 ..hold.clone()
             }));
+            supports
+                .clamps
+                .extend(own.clamps.iter().map(|clamp| crate::rod::clamp::Clamp { node: start + clamp.node, ..clamp.clone() }));
             let mut slot = 0;
             for (node, on, path) in
                 [(*start, &line.anchor_on, &ends[local].anchor), (last, &line.fairlead_on, &ends[local].fairlead)]
@@ -190,6 +194,7 @@ impl Group {
         if lonely {
             network.fixed.extend((0..6).map(|c| (0, c)));
         }
+        network.clamp();
         let names = together
             .bodies
             .iter()
@@ -289,6 +294,9 @@ impl Group {
         let node = self.node_of(local, end);
         if let Some((_, own)) = self.network.driven.iter_mut().find(|(driven, _)| *driven == node) {
             own.clone_from(path);
+        }
+        if self.together.clamped {
+            self.network.clamp();
         }
     }
 

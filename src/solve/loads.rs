@@ -1,14 +1,16 @@
 //! Force and moment of the lines on a body, about its reference point.
 //!
 //! ```text
-//! F = Σ f_i,   M = Σ (r_i - X) × f_i      over all ends that hang on it
+//! F = Σ f_i,   M = Σ (r_i - X) × f_i + m_i      over all ends that hang on it
 //! ```
+//!
+//! m_i the moments of ends that are clamped.
 
 use crate::algebra::rotation;
+use crate::rod::pose::BodyMotion;
 use crate::scene::bodies::Mount;
 use crate::scene::types::Scene;
 use crate::solve::outputs::Outputs;
-use crate::solve::pose::BodyMotion;
 use nalgebra::Vector3;
 
 /// Where a body is.
@@ -55,9 +57,13 @@ pub fn on(reference: &Vector3<f64>, ends: &[(usize, bool)], outputs: &[Outputs])
     let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
     for (line, anchor) in ends {
         let Some(outputs) = outputs.get(*line) else { continue };
-        let (place, pull) = if *anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) };
+        let (place, pull, own) = if *anchor {
+            (outputs.anchor, outputs.anchor_force, outputs.anchor_moment)
+        } else {
+            (outputs.fairlead, outputs.force, outputs.moment)
+        };
         force += pull;
-        moment += (place - reference).cross(&pull);
+        moment += (place - reference).cross(&pull) + own;
     }
     (force, moment)
 }

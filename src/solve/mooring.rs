@@ -2,6 +2,7 @@
 
 use crate::algebra::rotation;
 use crate::error::Error;
+use crate::rod::pose::PosePath;
 use crate::scene::bodies::Matrix;
 use crate::scene::read::Loaded;
 use crate::scene::types::Scene;
@@ -10,7 +11,6 @@ use crate::solve::loads::{self, BodyOutputs, Pose};
 use crate::solve::newton::Newton;
 use crate::solve::part::Part;
 use crate::solve::partition;
-use crate::solve::pose::PosePath;
 use crate::solve::simulation::{Outputs, Simulation};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 
@@ -159,7 +159,13 @@ impl Mooring {
             if own.is_free() { [Vector3::from(own.position), own.attitude()] } else { self.hung.bodies[body].0.pose(time) };
         let length = scene.lines.iter().map(|line| line.length()).fold(f64::INFINITY, f64::min);
         let (step, ends) = (1.0e-5 * length, loads::hanging(&scene, body));
-        let arm = ends.iter().fold(1.0e-3 * length, |arm: f64, (line, anchor)| {
+        // Turning a clamp bends the line at once.
+        let clamped = ends.iter().any(|(line, anchor)| {
+            let line = &scene.lines[*line];
+            let on = if *anchor { &line.anchor_on } else { &line.fairlead_on };
+            on.as_ref().is_some_and(|on| on.clamp().is_some())
+        });
+        let arm = ends.iter().fold(if clamped { length } else { 1.0e-3 * length }, |arm: f64, (line, anchor)| {
             let line = &scene.lines[*line];
             arm.max((Vector3::from(if *anchor { line.anchor } else { line.fairlead }) - position).norm())
         });

@@ -2,12 +2,12 @@
 
 use crate::algebra::shape::Shape;
 use crate::algebra::sinusoid::Sinusoid;
+pub use crate::rod::pose::Kinematics;
+use crate::rod::pose::PosePath;
 use crate::scene::bodies::{BodyMotion, Mount, PointMotion};
 use crate::scene::motion_file::Table;
 use crate::scene::read::Loaded;
 use crate::scene::types::{Motion, Triple};
-pub use crate::solve::pose::Kinematics;
-use crate::solve::pose::PosePath;
 use nalgebra::Vector3;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -109,7 +109,7 @@ impl Path {
     fn on(loaded: &Loaded, on: &Mount, place: Triple) -> Path {
         let scene = &loaded.scene;
         match on {
-            Mount::Body { body, at } => scene.body(body).map_or(Path::Fixed(place.into()), |index| Path::OnBody {
+            Mount::Body { body, at, .. } => scene.body(body).map_or(Path::Fixed(place.into()), |index| Path::OnBody {
                 body: Arc::new(PosePath::of_scene(loaded, index)),
                 at: Vector3::from(*at),
             }),

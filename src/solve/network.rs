@@ -73,6 +73,15 @@ impl Network {
         Network { rod, bodies, links, arms, driven, pulls, fixed, room }
     }
 
+    /// Lets clamped ends go with the bodies that drive them.
+    pub fn clamp(&mut self) {
+        for (node, path) in &self.driven {
+            if let Path::OnBody { body, .. } = path {
+                self.rod.clamp_to(*node, body);
+            }
+        }
+    }
+
     fn body_at(&self, node: usize) -> Option<&Rigid> {
         self.bodies.iter().find(|body| body.node == node)
     }

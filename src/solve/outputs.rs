@@ -17,10 +17,14 @@ pub struct Outputs {
     pub force: Vector3<f64>,
     /// |force| [N]: the effective tension at the fairlead, unless a body is there.
     pub tension: f64,
+    /// Moment on the vessel [N·m]; zero unless the fairlead is clamped.
+    pub moment: Vector3<f64>,
     /// Position of the anchor [m].
     pub anchor: Vector3<f64>,
     /// Force on the anchor [N].
     pub anchor_force: Vector3<f64>,
+    /// Moment on the anchor [N·m]; zero unless it is clamped.
+    pub anchor_moment: Vector3<f64>,
     /// |anchor_force| [N], as `tension`.
     pub anchor_tension: f64,
     /// Largest effective tension along the line [N].
@@ -81,6 +85,8 @@ pub fn from_forces(line: &dyn Line, state: &State, forces: &[Vector3<f64>], time
         fairlead: state.u.position(last),
         force,
         tension: force.norm(),
+        moment: line.end_moment(last, &at),
+        anchor_moment: line.end_moment(0, &at),
         anchor: state.u.position(0),
         anchor_force,
         anchor_tension: anchor_force.norm(),
@@ -116,6 +122,8 @@ pub fn difference(after: &Outputs, before: &Outputs, per: f64) -> Outputs {
         fairlead: (after.fairlead - before.fairlead) * per,
         force: (after.force - before.force) * per,
         tension: (after.tension - before.tension) * per,
+        moment: (after.moment - before.moment) * per,
+        anchor_moment: (after.anchor_moment - before.anchor_moment) * per,
         anchor: (after.anchor - before.anchor) * per,
         anchor_force: (after.anchor_force - before.anchor_force) * per,
         anchor_tension: (after.anchor_tension - before.anchor_tension) * per,

@@ -13,12 +13,14 @@ pub struct Together {
     pub bodies: Vec<usize>,
     /// Free points.
     pub points: Vec<usize>,
+    /// An end of a line is clamped to a body.
+    pub clamped: bool,
 }
 
 impl Together {
-    /// Whether it is a line between ends that are driven or fixed.
+    /// Whether it is a line between ends that are driven or fixed, and pinned.
     pub fn is_alone(&self) -> bool {
-        self.bodies.is_empty() && self.points.is_empty()
+        self.bodies.is_empty() && self.points.is_empty() && !self.clamped
     }
 }
 
@@ -55,7 +57,11 @@ pub fn parts(scene: &Scene) -> Vec<Together> {
         .filter(|point| scene.points[*point].is_free())
         .map(|point| (of(part[lines + scene.bodies.len() + point]), point))
         .collect();
-    places.into_iter().enumerate().for_each(|(index, place)| found[place].1.lines.push(index));
+    for (index, place) in places.into_iter().enumerate() {
+        let (line, part) = (&scene.lines[index], &mut found[place].1);
+        part.lines.push(index);
+        part.clamped |= [&line.fairlead_on, &line.anchor_on].into_iter().flatten().any(|on| on.clamp().is_some());
+    }
     bodies.into_iter().for_each(|(place, body)| found[place].1.bodies.push(body));
     points.into_iter().for_each(|(place, point)| found[place].1.points.push(point));
     found.into_iter().map(|(_, part)| part).collect()

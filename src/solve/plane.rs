@@ -26,8 +26,8 @@ pub fn decision(scene: &Scene, line: &types::Line, around: &Surroundings, suppor
         Some("the current flows across")
     } else if Plane::of(&scene.environment).normal.y != 0.0 {
         Some("the bed slopes across")
-    } else if !supports.holds.is_empty() {
-        Some("constraints are solved in space")
+    } else if !(supports.holds.is_empty() && supports.clamps.is_empty()) {
+        Some("constraints and clamped ends are solved in space")
     } else if around.waves.is_some() {
         Some("waves are solved in space")
     } else {

@@ -4,6 +4,7 @@ use crate::cable1994::line::Tensions;
 use crate::rod::line::{Line, Supports};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::Surroundings;
+use crate::rod::pose::PosePath;
 use crate::rod::state::State;
 use crate::scene::state::{LineState, NodeState};
 use crate::solve::controller::{self, Controller, Demands};
@@ -18,6 +19,7 @@ use crate::solve::scheme::Moment;
 use crate::solve::snapshot::Snapshot;
 use crate::solve::start::Bounds;
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 mod building;
 mod derivative;
@@ -67,6 +69,12 @@ impl Simulation {
     /// every step.
     pub fn sum_up_work(&mut self) {
         self.works = true;
+    }
+
+    /// Lets the end at a node, if it is clamped, go with a body.
+    pub(in crate::solve) fn clamp_to(&mut self, node: usize, body: &Arc<PosePath>) {
+        self.line.clamp_to(node, body);
+        self.supports.clamps.iter_mut().filter(|clamp| clamp.node == node).for_each(|clamp| clamp.body = Arc::clone(body));
     }
 
     /// The discrete line.

@@ -9,6 +9,7 @@ use crate::fmi::segment::Segment;
 use crate::fmi::variables::Interpolation;
 use crate::fmi::vessel::{Vessel, Voyage, pose_path};
 use crate::fmi::warnings::Limits;
+use crate::rod::pose::PosePath;
 use crate::scene::bodies::Mount;
 use crate::scene::read::Loaded;
 use crate::scene::types::Scene;
@@ -16,7 +17,6 @@ use crate::solve::group::{EndOf, Group};
 use crate::solve::loads;
 use crate::solve::motion::{Ends, Path};
 use crate::solve::partition;
-use crate::solve::pose::PosePath;
 use crate::solve::simulation::{LastStep, Linearised, Outputs, Simulation, StaticsReport};
 use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
@@ -96,7 +96,7 @@ impl Built {
             let hung = loads::hanging(scene, index);
             let arm =
                 scene.lines.iter().flat_map(|line| [&line.fairlead_on, &line.anchor_on]).fold(SHORTEST_ARM, |arm, on| match on {
-                    Some(Mount::Body { body: name, at }) if *name == body.name => arm.max(Vector3::from(*at).norm()),
+                    Some(Mount::Body { body: name, at, .. }) if *name == body.name => arm.max(Vector3::from(*at).norm()),
                     _ => arm,
                 });
             let path = Arc::new(PosePath::Fixed { position: body.position.into(), angles: body.attitude() });
@@ -136,7 +136,7 @@ impl Built {
         let mut ends = Ends::of_scene(loaded, index);
         let line = &scene.lines[index];
         let place = |on: &Option<Mount>, at: [f64; 3], path: &mut Path| match on {
-            Some(Mount::Body { body, at }) => {
+            Some(Mount::Body { body, at, .. }) => {
                 if let Some(body) = scene.body(body) {
                     *path = Path::OnBody { body: Arc::clone(&self.vessels[body].path), at: Vector3::from(*at) };
                 }
@@ -314,7 +314,7 @@ impl BuiltLine {
     fn new(scene: &Scene, index: usize, what: What, ends: Ends, limits: Limits) -> BuiltLine {
         let line = &scene.lines[index];
         let mount = |on: &Option<Mount>| match on {
-            Some(Mount::Body { body, at }) => {
+            Some(Mount::Body { body, at, .. }) => {
                 scene.body(body).filter(|body| !scene.bodies[*body].is_free()).map(|body| (body, (*at).into()))
             }
             _ => None,

@@ -1,7 +1,7 @@
 //! Bodies and points, and what lines hang on.
 
 use crate::error::{Error, among};
-use crate::scene::bodies::{Body, BodyMotion, Matrix, Mount, Point, PointMotion};
+use crate::scene::bodies::{Body, BodyMotion, Clamp, Matrix, Mount, Point, PointMotion, Stiffness};
 use crate::scene::check::finding::{distance, finite, not_negative, number, positive, refuse, sinusoid, triple};
 use crate::scene::types::{Scene, Scheme, Triple};
 use nalgebra::SymmetricEigen;
@@ -236,6 +236,9 @@ pub(super) fn ends(scene: &Scene, file: &str) -> Result<(), Error> {
                 }
                 Mount::Point { .. } => ("point", scene.points.iter().map(|point| point.name.clone()).collect()),
             };
+            if let Some(clamp) = on.clamp() {
+                clamped(scene, index, on, clamp, &place, file)?;
+            }
             let name = on.name().to_owned();
             if !known.contains(&name) {
                 let allowed = format!("there is no {key} of that name{}", among(&name, &known));
@@ -246,7 +249,14 @@ pub(super) fn ends(scene: &Scene, file: &str) -> Result<(), Error> {
                 return refuse(file, format!("lines[{index}].constraints"), "a constraint at that end", allowed);
             }
         }
-        if line.fairlead_on.is_some() && line.fairlead_on == line.anchor_on {
+        let one_place = match (&line.fairlead_on, &line.anchor_on) {
+            (Some(Mount::Body { body, at, .. }), Some(Mount::Body { body: other, at: there, .. })) => {
+                body == other && at == there
+            }
+            (Some(one), Some(other)) => one == other,
+            _ => false,
+        };
+        if one_place {
             let name = line.fairlead_on.as_ref().map_or("", Mount::name);
             return refuse(
                 file,
@@ -263,6 +273,30 @@ pub(super) fn ends(scene: &Scene, file: &str) -> Result<(), Error> {
                 "it knows lines between coordinates alone; use adams-moulton",
             );
         }
+    }
+    Ok(())
+}
+
+/// An end can be clamped to what is driven, and only if the line bends.
+fn clamped(scene: &Scene, index: usize, on: &Mount, clamp: &Clamp, place: &str, file: &str) -> Result<(), Error> {
+    finite(file, &format!("{place}.direction"), &clamp.direction)?;
+    if !(clamp.direction.iter().map(|x| x * x).sum::<f64>() > 0.0) {
+        return refuse(file, format!("{place}.direction"), triple(clamp.direction), "it is a direction: not all may be 0");
+    }
+    if let Stiffness::Of(stiffness) = clamp.stiffness {
+        positive(file, &format!("{place}.stiffness"), stiffness, "N·m/rad, or \"clamped\"")?;
+    }
+    if scene.is_on_free(Some(on)) {
+        let allowed = "an end is clamped to a fixed or driven body only; pin it to a free one, or drive the body";
+        return refuse(file, format!("{place}.direction"), format!("a clamp on {:?}", on.name()), allowed);
+    }
+    let line = &scene.lines[index];
+    let section = if place.ends_with("anchor") { line.sections.last() } else { line.sections.first() };
+    let bends = section.and_then(|section| scene.line_types.get(&section.line_type)).is_some_and(|of| of.ei > 0.0);
+    if !bends {
+        let kind = section.map_or("", |section| section.line_type.as_str());
+        let allowed = format!("a line without bending stiffness has no moment to clamp: give line_types.{kind}.ei");
+        return refuse(file, format!("{place}.direction"), triple(clamp.direction), allowed);
     }
     Ok(())
 }

@@ -16,7 +16,9 @@ use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::System;
 use crate::solve::condensed::Condensed;
+use crate::solve::motion::Path;
 use crate::solve::newton::{Effort, motion};
+use crate::solve::rounding;
 use crate::solve::simulation::{LastStep, StaticsReport};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -35,6 +37,8 @@ const SHORTER: f64 = 0.4;
 const SOFT: f64 = 1.0e-9;
 /// Unstable equilibria left at most.
 const DEPARTURES: usize = 8;
+/// Steps after which all at once is tried again.
+const PATIENCE: usize = 10;
 /// Steps in a row that bring nothing.
 const STALLED: usize = 40;
 
@@ -57,11 +61,20 @@ impl Group {
         let mut matrix = BlockTridiagonal::new(self.network.ties());
         let mut condensed = Condensed::new(self.network.nodes(), &self.network.links);
         let scales = self.scales();
+        self.clamp_lines();
         let mut here = self.try_at(self.start(time))?;
+        if self.masters.is_empty() {
+            self.begin_from(here.state);
+            return Ok(StaticsReport { iterations: 1, residual: 0.0, converged: true, others: self.others });
+        }
+        self.hasten(&mut here);
         let (mut mu, mut departures, mut iterations, mut stalled) = (0.0_f64, 0, 0, 0);
         let mut unstable = false;
         while iterations < ITERATIONS && stalled < STALLED {
             iterations += 1;
+            if iterations % PATIENCE == 0 {
+                self.hasten(&mut here);
+            }
             self.assemble(&here, &mut matrix, &mut condensed)?;
             let (least, softest) = condensed.softest(&scales);
             let size = largest(condensed.stiffness(), &scales);
@@ -120,6 +133,19 @@ impl Group {
         Ok(StaticsReport { iterations, residual: force, converged: true, others: self.others })
     }
 
+    /// Goes on to where Newton's method on all at once leads, if that is nearer to equilibrium.
+    fn hasten(&mut self, here: &mut Trial) {
+        if here.excess <= 1.0 {
+            return;
+        }
+        let Some(state) = self.approach(&here.state) else { return };
+        if let Ok(there) = self.try_at(state)
+            && there.excess < here.excess
+        {
+            *here = there;
+        }
+    }
+
     /// Stiffness of what is free against its own displacement, all lines following: six rows for each body and each point, of which three count.
     pub fn stiffness(&self) -> Option<DMatrix<f64>> {
         let mut matrix = BlockTridiagonal::new(self.network.ties());
@@ -128,6 +154,19 @@ impl Group {
         self.stiffness_at(state, &mut matrix);
         condensed.condense(&self.network, &motion(state), &mut matrix).ok()?;
         Some(condensed.stiffness().clone())
+    }
+
+    /// Lets the clamped ends of each line alone go with the bodies that drive them.
+    fn clamp_lines(&mut self) {
+        if !self.together.clamped {
+            return;
+        }
+        for (node, path) in &self.network.driven {
+            let local = self.line_of(*node);
+            if let Path::OnBody { body, .. } = path {
+                self.simulations[local].clamp_to(node - self.starts[local], body);
+            }
+        }
     }
 
     /// At rest, where bodies and points are now.
@@ -151,7 +190,7 @@ impl Group {
     }
 
     /// The same step, no longer than `most` of what is sensible.
-    fn bounded(&self, step: &DVector<f64>, most: f64) -> DVector<f64> {
+    pub(super) fn bounded(&self, step: &DVector<f64>, most: f64) -> DVector<f64> {
         let shortest = self.simulations.iter().map(|simulation| simulation.line().mesh().length).fold(f64::INFINITY, f64::min);
         let reach = self.network.bodies.iter().map(Rigid::reach).fold(0.0, f64::max);
         let farthest = FARTHEST * if shortest.is_finite() { shortest } else { 4.0 * reach.max(1.0) };
@@ -166,7 +205,7 @@ impl Group {
         step * (most / longest).min(1.0)
     }
 
-    fn of_masters(&self, field: &Field) -> DVector<f64> {
+    pub(super) fn of_masters(&self, field: &Field) -> DVector<f64> {
         DVector::from_iterator(
             6 * self.masters.len(),
             self.masters.iter().flat_map(|node| (0..6).map(|c| field.component(c)[*node])),
@@ -213,7 +252,7 @@ impl Group {
         self.network.gathered(&motion(&state), &mut residual);
         let of_bodies = self.network.bodies.iter().map(Rigid::weight).sum::<f64>();
         let weight = of_bodies + self.network.rod.mesh().total_weight() + self.network.rod.burden();
-        let aimed = AIMED * weight.max(pulls).max(f64::MIN_POSITIVE);
+        let aimed = (AIMED * weight.max(pulls)).max(self.rounding(&state)).max(f64::MIN_POSITIVE);
         let (mut worst, mut force) = (0, 0.0_f64);
         for (number, &node) in self.masters.iter().enumerate() {
             let reach = self.network.bodies.get(number).map_or(1.0, Rigid::reach);
@@ -224,6 +263,13 @@ impl Group {
             }
         }
         Ok(Trial { state, residual, excess: force / aimed, worst, force, aimed })
+    }
+
+    /// Force on a body or point that is out of balance by no more than rounding [N].
+    fn rounding(&self, state: &State) -> f64 {
+        let mut bound = rounding::bound(self.network.rod.as_ref(), state);
+        self.network.gather(&motion(state), &mut bound);
+        self.masters.iter().map(|node| bound.position(*node).norm()).fold(0.0, f64::max)
     }
 
     fn assemble(&self, here: &Trial, matrix: &mut BlockTridiagonal<6>, condensed: &mut Condensed) -> Result<(), Error> {

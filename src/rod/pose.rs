@@ -146,6 +146,11 @@ impl PosePath {
         BodyMotion::of_angles(Kinematics { position: x[0], velocity: x[1], acceleration: x[2] }, q)
     }
 
+    /// R at a time: body axes to global ones.
+    pub fn rotation(&self, time: f64) -> Matrix3<f64> {
+        Attitude::of(&self.coordinates(time)[1][0]).rotation()
+    }
+
     /// Position [m] and roll, pitch and yaw [rad] at a time.
     pub fn pose(&self, time: f64) -> [Vector3<f64>; 2] {
         self.coordinates(time).map(|[value, ..]| value)
