@@ -95,6 +95,8 @@ pub mod rod {
 pub mod sea {
     pub mod clock;
     pub mod current;
+    pub mod near;
+    pub mod series;
     pub mod spectrum;
     pub mod wave;
     pub mod waves;

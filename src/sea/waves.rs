@@ -11,8 +11,9 @@
 //! the one of travel.
 //!
 //! A component is left out where it has decayed to less than 1e-4 of its motion at the surface, counted from a trough as deep as the
-//! significant wave height; what lies deeper than the longest component reaches is not looked at. Sine, cosine and exponential are polynomials, good to 3e-11, because they then run on several
-//! numbers at once: on several places for the element loop, on several components for a single place.
+//! significant wave height; what lies deeper than the longest component reaches is not looked at. Sine, cosine and exponential are polynomials, good to 3e-11,
+//! because they then run on several numbers at once: on several places for the element loop, on several components for a single place.
+//! Where there are many components of one direction, `near` takes their sums by cells of space and time.
 
 use crate::algebra::lanes::Lanes;
 use crate::algebra::real::Across;
@@ -21,11 +22,13 @@ use crate::algebra::shape::Shape;
 use crate::algebra::triple::Triple;
 use crate::scene::types::{self, Environment};
 use crate::sea::clock::Clock;
+use crate::sea::near::{Member, Near, Water};
+use crate::sea::series::{DECAYED, cos_sin, decay};
 use crate::sea::spectrum::Jonswap;
 use crate::sea::wave::{Wave, wave_number};
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Motion of the water.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +50,7 @@ pub struct Waves {
     crest: f64,
     height: f64,
     longest: f64,
+    near: Option<Near>,
     processor: Arch,
 }
 
@@ -82,8 +86,6 @@ const ROWS: usize = Row::Echo as usize + 1;
 const FAINT: f64 = 1.0e-4;
 /// A random sea's crests are counted on up to this many standard deviations; one higher is rarer than one in 10²¹ waves.
 const RARE: f64 = 10.0;
-/// Exponents of decay below this are as good as this [-]; also the k d beyond which the bed sends nothing back.
-const DECAYED: f64 = 20.0;
 /// The water never becomes shallower than this share of its depth.
 const SHALLOWEST: f64 = 0.05;
 
@@ -130,7 +132,36 @@ impl Waves {
         let crest = waves.iter().map(|wave| wave.amplitude).sum::<f64>();
         let height = crest.min(4.0 * deviation(waves));
         let longest = numbered.first().map_or(f64::INFINITY, |(k, _)| *k);
-        Waves { count: waves.len(), rows, depth, gravity, ramp, crest, height, longest, processor: Arch::new() }
+        let mut sea =
+            Waves { count: waves.len(), rows, depth, gravity, ramp, crest, height, longest, near: None, processor: Arch::new() };
+        let direction = waves.first().map_or(0.0, |wave| wave.direction);
+        if waves.iter().all(|wave| wave.direction == direction) {
+            sea.near = Near::new(&sea.members(), Water { gravity, depth, shallowest: SHALLOWEST * depth, height, direction });
+        }
+        sea
+    }
+
+    /// The same sea with its components summed one by one everywhere: what sums by cells are judged by.
+    pub fn one_by_one(self) -> Waves {
+        Waves { near: None, ..self }
+    }
+
+    /// Whether the components are summed by cells rather than one by one.
+    pub fn by_cells(&self) -> bool {
+        self.near.is_some()
+    }
+
+    fn members(&self) -> Vec<Member> {
+        let get = |row: Row, n: usize| self.rows[row as usize][n];
+        let member = |n: usize| Member {
+            number: get(Row::Number, n),
+            omega: TAU * get(Row::Frequency, n),
+            phase: TAU * get(Row::Phase, n),
+            amplitude: get(Row::Amplitude, n),
+            speed: get(Row::Speed, n),
+            echoes: get(Row::Echo, n) > 0.0,
+        };
+        (0..self.count).map(member).collect()
     }
 
     /// Number of components.
@@ -181,7 +212,11 @@ impl Waves {
         if easing == 0.0 {
             return 0.0;
         }
-        self.processor.dispatch(Elevation { waves: self, time: clock.now, x, y }) * easing
+        let sum = match &self.near {
+            Some(near) => near.elevation(clock.now, x, y),
+            None => self.processor.dispatch(Elevation { waves: self, time: clock.now, x, y }),
+        };
+        sum * easing
     }
 
     /// The motion of the water at places, or none where it is at rest. One place alone is better asked for with `f64`.
@@ -201,7 +236,10 @@ impl Waves {
     /// elements.
     #[inline(never)]
     fn sums_at(&self, count: usize, time: f64, easing: f64, places: [[f64; MOST_LANES]; 3]) -> [[f64; MOST_LANES]; 6] {
-        self.processor.dispatch(Sums { waves: self, count, time, easing, places })
+        match &self.near {
+            Some(near) => near.sums(count, time, easing, &places),
+            None => self.processor.dispatch(Sums { waves: self, count, time, easing, places }),
+        }
     }
 
     /// Sums of the velocities and accelerations of all components, before they are eased in. `PLACES`: the lanes hold several places,
@@ -347,42 +385,6 @@ impl WithSimd for Elevation<'_> {
         let place = Triple::splat(cpu, &Vector3::new(self.x, self.y, 0.0));
         self.waves.elevations::<Lanes<V>, false>(cpu, self.time, &place).first()
     }
-}
-
-/// cos and sin of an angle in turns, by their series about half the angle, which lies within ± π/2: errors below 3e-11.
-#[inline(always)]
-fn cos_sin<F: Real>(cpu: F::Cpu, turns: F) -> (F, F) {
-    // Adding and taking away 1.5·2⁵² rounds to a whole number.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    let half = (turns - ((turns + ROUND) + -ROUND)) * PI;
-    let (sin, cos) = (half * series(cpu, half * half, 15), series(cpu, half * half, 16));
-    ((sin * sin).scale_add(-2.0, F::splat(cpu, 1.0)), sin * cos * 2.0)
-}
-
-/// The series of sin x / x (`last` odd) or of cos x (`last` even) in x², up to the power `last` of sin x or cos x.
-#[inline(always)]
-fn series<F: Real>(cpu: F::Cpu, square: F, last: u32) -> F {
-    let mut sum = F::splat(cpu, 1.0);
-    let mut n = last;
-    while n > 1 {
-        sum = (sum * square).scale_add(-1.0 / f64::from(n * (n - 1)), F::splat(cpu, 1.0));
-        n -= 2;
-    }
-    sum
-}
-
-/// e^x for x ≤ 0, by its series at x/32; e^-20 for all smaller x. Relative error below 1e-10.
-#[inline(always)]
-fn decay<F: Real>(cpu: F::Cpu, x: F) -> F {
-    let x = x.max(F::splat(cpu, -DECAYED)) * (1.0 / 32.0);
-    let mut sum = F::splat(cpu, 1.0);
-    for per in [12.0, 11.0, 10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0].map(f64::recip) {
-        sum = (sum * x).scale_add(per, F::splat(cpu, 1.0));
-    }
-    for _ in 0..5 {
-        sum = sum * sum;
-    }
-    sum
 }
 
 #[cfg(test)]
@@ -553,20 +555,5 @@ mod tests {
         let variance = samples.iter().map(|eta| (eta - mean).powi(2)).sum::<f64>() / f64::from(count);
         assert!(mean.abs() < 0.01, "{mean}");
         assert!((variance - 1.0).abs() < 0.01, "{variance}");
-    }
-
-    /// The series against the standard library.
-    #[test]
-    fn the_series_are_good_to_their_bound() {
-        for n in -4000..4000 {
-            let turns = f64::from(n) * 0.00137;
-            let (cos, sin) = cos_sin::<f64>((), turns);
-            assert!((cos - (TAU * turns).cos()).abs() < 3e-11 && (sin - (TAU * turns).sin()).abs() < 3e-11, "{turns}");
-        }
-        for n in 0..2000 {
-            let x = -0.01 * f64::from(n);
-            assert!((decay::<f64>((), x) / x.exp() - 1.0).abs() < 1e-10, "{x}");
-        }
-        assert!(decay::<f64>((), -1e9) < 1e-8);
     }
 }
