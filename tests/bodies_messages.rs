@@ -69,6 +69,28 @@ fn every_fault_is_named_with_its_place_and_what_is_allowed() {
             &["points[1].name", "without a line"],
         ),
         ("lines[1].constraints=[{\"s\": 0, \"stiffness\": [1, 1, 1]}]", &["lines[1].constraints", "hangs on \"knot\""]),
+        (
+            "lines[1].anchor={\"body\": \"buoy\", \"at\": [1, 0, 0], \"direction\": [1, 0, 0]}",
+            &["lines[1].anchor.direction", "a clamp on \"buoy\"", "fixed or driven body only"],
+        ),
+        (
+            "lines[0].fairlead={\"body\": \"ship\", \"at\": [50, 0, -3], \"direction\": [0, 0, -1]}",
+            &["lines[0].fairlead.direction", "give line_types.chain.ei"],
+        ),
+        (
+            "lines[0].fairlead={\"body\": \"ship\", \"at\": [50, 0, -3], \"direction\": [0, 0, 0]}",
+            &["lines[0].fairlead.direction", "not all may be 0"],
+        ),
+        (
+            "lines[0].fairlead={\"body\": \"ship\", \"at\": [50, 0, -3], \"direction\": [0, 0, -1], \"stiffness\": -1}",
+            &["lines[0].fairlead.stiffness", "-1", "or \"clamped\""],
+        ),
+        (
+            "lines[0].fairlead={\"body\": \"ship\", \"at\": [50, 0, -3], \"direction\": [0, 0, -1], \"stiffness\": \"stiff\"}",
+            &["lines[0].fairlead", "stiffness", "another value, expected a number or \"clamped\""],
+        ),
+        ("lines[0].fairlead={\"body\": \"ship\", \"at\": [50, 0, -3], \"stiffness\": 1e6}", &["lines[0].fairlead", "direction"]),
+        ("lines[1].fairlead={\"point\": \"knot\", \"direction\": [0, 0, -1]}", &["lines[1].fairlead", "direction"]),
         ("solver.scheme=\"cable-1994\"", &["solver.scheme", "between coordinates alone"]),
         ("lines[2].anchor={\"body\": \"buoy\", \"at\": [0, 0, 0]}", &["lines[1]", "nothing holds"]),
     ];

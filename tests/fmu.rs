@@ -11,48 +11,12 @@ use moorline::solve::simulation::Simulation;
 use std::path::{Path as FilePath, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
+use support::python::{self, run};
+
+mod support;
 
 /// What the scripts import.
 const PACKAGES: [&str; 4] = ["fmpy==0.3.32", "numpy<3", "libcosimpy==0.0.6", "pythonfmu==0.7.0"];
-
-/// Runs a command; its output is the message where it fails.
-fn run(command: &mut Command, purpose: &str) -> Result<(), String> {
-    let output = command.output().map_err(|error| format!("{purpose}: {command:?}: {error}"))?;
-    if output.status.success() {
-        return Ok(());
-    }
-    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    Err(format!("{purpose}: {command:?} ended with {}\n{out}\n{err}", output.status))
-}
-
-/// The Python of a virtual environment that holds `PACKAGES`.
-fn python() -> Result<PathBuf, String> {
-    let environment = FilePath::new(env!("CARGO_TARGET_TMPDIR")).join("python");
-    let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let finished = environment.join("packages.txt");
-    if std::fs::read_to_string(&finished).is_ok_and(|packages| packages == PACKAGES.join("\n")) {
-        return Ok(python);
-    }
-    let names = ["python3", "python"];
-    let found =
-        names.iter().find(|name| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success()));
-    let Some(system) = found else {
-        return Err(
-            "the tests of the FMU need Python 3.9 or newer on the PATH, as `python3` or `python`: install it and try again"
-                .into(),
-        );
-    };
-    run(
-        Command::new(system).args(["-m", "venv"]).arg(&environment),
-        "making a virtual environment (Debian: install python3-venv)",
-    )?;
-    run(
-        Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(PACKAGES),
-        "installing the Python packages of the tests",
-    )?;
-    std::fs::write(&finished, PACKAGES.join("\n")).map_err(|error| error.to_string())?;
-    Ok(python)
-}
 
 /// The built-in scene.
 fn scene() -> Result<Scene, String> {
@@ -107,15 +71,15 @@ fn prepared() -> &'static Result<(PathBuf, PathBuf), String> {
         let lines = serde_json::from_str(include_str!("../examples/two-lines.json")).map_err(|error| error.to_string())?;
         pack(&lines, "two-lines", Naming::Structured, &Libraries::beside_program(), &folder.join("two-lines.fmu"))
             .map_err(|error| error.to_string())?;
-        Ok((python()?, fmu))
+        Ok((python::environment("python", &PACKAGES)?, fmu))
     })
 }
 
 /// Runs a script of `tests/fmu/` on the FMU.
 fn script(name: &str) {
-    let (python, fmu) = prepared().as_ref().unwrap_or_else(|message| panic!("{message}"));
+    let (interpreter, fmu) = prepared().as_ref().unwrap_or_else(|message| panic!("{message}"));
     let file = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmu").join(name);
-    let mut command = Command::new(python);
+    let mut command = Command::new(interpreter);
     command.args(["-X", "faulthandler"]).arg(file).arg(fmu).env("PYTHONDONTWRITEBYTECODE", "1");
     if let Err(message) = run(&mut command, name) {
         panic!("{message}");
@@ -162,14 +126,14 @@ fn two_lines_in_one_fmu_are_what_each_is_alone() {
     script("lines.py");
 }
 
-/// The FMU of an example and the time series of its run, in a folder of its own.
-fn moored(name: &str, script: &str, sets: &[&str]) {
-    let (python, fmu) = prepared().as_ref().unwrap_or_else(|message| panic!("{message}"));
-    let folder = fmu.with_file_name(name);
-    let scene = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(name).with_extension("json");
+/// A script on the FMU of an example and the time series of its run, in a folder of its own.
+fn moored(example: &str, script: &str, sets: &[&str]) {
+    let (interpreter, fmu) = prepared().as_ref().unwrap_or_else(|message| panic!("{message}"));
+    let folder = fmu.with_file_name(script.replace('/', "-"));
+    let scene = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(example).with_extension("json");
     let program = || Command::new(env!("CARGO_BIN_EXE_moorline"));
-    let packed = folder.join(name).with_extension("fmu");
-    let done = |command: &mut Command| run(command, name).unwrap_or_else(|message| panic!("{message}"));
+    let packed = folder.join(example).with_extension("fmu");
+    let done = |command: &mut Command| run(command, script).unwrap_or_else(|message| panic!("{message}"));
     let mut running = program();
     running.arg("run").arg(&scene).args(["--quiet", "--output"]).arg(&folder);
     for set in sets {
@@ -178,7 +142,7 @@ fn moored(name: &str, script: &str, sets: &[&str]) {
     done(&mut running);
     done(program().arg("pack").arg(&scene).arg("--output").arg(&packed));
     let file = FilePath::new(env!("CARGO_MANIFEST_DIR")).join(script);
-    let mut command = Command::new(python);
+    let mut command = Command::new(interpreter);
     command.args(["-X", "faulthandler"]).arg(file).arg(&packed).env("PYTHONDONTWRITEBYTECODE", "1");
     if script.starts_with("tests") {
         command.arg(folder.join("timeseries.csv"));
@@ -199,6 +163,11 @@ fn a_buoy_and_a_ship_in_one_fmu_go_as_in_the_run() {
 #[test]
 fn a_ship_in_fmpy_is_moored_without_a_line_of_kinematics() {
     moored("spread-moored-ship", "examples/moored_ship.py", &["run.duration=0"]);
+}
+
+#[test]
+fn a_ship_and_its_mooring_are_one_fmu_each_in_libcosim_and_in_ssp() {
+    moored("spread-moored-ship", "tests/fmu/ship.py", &["run.duration=0"]);
 }
 
 #[test]

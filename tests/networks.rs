@@ -156,8 +156,8 @@ fn settle(mooring: &mut Mooring, lines: usize) -> Result<Vec<Outputs>, Error> {
     Ok(outputs.into_iter().flatten().collect())
 }
 
-/// Every line pulls as it does alone between the ends where it was found, to 3e-3 (meshes differ, within three times the tolerance); every point that is under water and
-/// off the bed is in balance, to 1e-4 of what pulls at it.
+/// Every line pulls as it does alone between the ends where it was found, to 3e-3 (meshes differ, within three times the tolerance) of its tension
+/// or, where it is slack, of a thousandth of its weight; every point that is under water and off the bed is in balance, to 1e-4 of what pulls at it.
 fn hangs_in_balance(loaded: &Loaded, mooring: &Mooring, outputs: &[Outputs]) {
     let scene = &loaded.scene;
     // Meshes are chosen for ends where a scene puts them.
@@ -168,7 +168,9 @@ fn hangs_in_balance(loaded: &Loaded, mooring: &Mooring, outputs: &[Outputs]) {
         alone.settle_between(found.fairlead, found.anchor, 0.0).unwrap_or_else(|error| panic!("{error}"));
         let own = alone.outputs();
         let off = (own.force - found.force).norm().max((own.anchor_force - found.anchor_force).norm());
-        let size = own.tension.max(own.anchor_tension);
+        let weight: f64 =
+            placed.lines[index].sections.iter().map(|s| s.length * placed.line_types[&s.line_type].mass * GRAVITY).sum();
+        let size = own.tension.max(own.anchor_tension).max(1e-3 * weight);
         assert!(off < 3e-3 * size, "line {index} alone pulls with {:?}, here with {:?}, off by {off} N", own.force, found.force);
     }
     let flows = !scene.environment.current.is_empty();

@@ -1,9 +1,15 @@
-"""Make an SSP package (System Structure & Parameterization 1.0) of a vessel on two mooring lines.
+"""Make an SSP package (System Structure & Parameterization 1.0): of a vessel on two mooring lines,
 
     pip install pythonfmu
     moorline pack -o moorline.fmu
     pythonfmu build -f examples/osp/vessel.py
-    python examples/ssp/pack.py moorline.fmu Vessel.fmu vessel-on-two-lines.ssp
+    python examples/ssp/pack.py vessel-on-two-lines.ssp examples/ssp moorline.fmu Vessel.fmu
+
+or of a ship and its whole mooring, one FMU each:
+
+    moorline pack examples/spread-moored-ship.json -o mooring.fmu
+    pythonfmu build -f examples/osp/ship/ship.py
+    python examples/ssp/pack.py moored-ship.ssp examples/ssp/ship mooring.fmu Ship.fmu
 
 The package is read by OMSimulator, FMPy, easySSP and other tools for SSP.
 """
@@ -12,18 +18,17 @@ import pathlib
 import sys
 import zipfile
 
-HERE = pathlib.Path(__file__).parent
 
-
-def pack(line: str, vessel: str, out: str) -> None:
-    """Writes the system structure, its parameter sets and the two FMUs into one archive."""
+def pack(out: str, structure: str | pathlib.Path, *fmus: str | pathlib.Path) -> None:
+    """Writes the system structure of a folder, its parameter sets and the FMUs into one archive."""
+    structure = pathlib.Path(structure)
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.write(HERE / "SystemStructure.ssd", "SystemStructure.ssd")
-        for parameters in sorted((HERE / "resources").glob("*.ssv")):
+        archive.write(structure / "SystemStructure.ssd", "SystemStructure.ssd")
+        for parameters in sorted((structure / "resources").glob("*.ssv")):
             archive.write(parameters, f"resources/{parameters.name}")
-        archive.write(line, "resources/moorline.fmu")
-        archive.write(vessel, "resources/Vessel.fmu")
+        for fmu in map(pathlib.Path, fmus):
+            archive.write(fmu, f"resources/{fmu.name}")
 
 
 if __name__ == "__main__":
-    pack(*sys.argv[1:4])
+    pack(*sys.argv[1:])

@@ -1,9 +1,11 @@
 """Run an SSP package with FMPy: parameter sets, connections and fixed steps, nothing else.
 
     pip install fmpy
-    python examples/ssp/run.py vessel-on-two-lines.ssp
+    python examples/ssp/run.py vessel-on-two-lines.ssp "vessel/bow.position.x" "bow line/tension" "stern line/tension"
+    python examples/ssp/run.py moored-ship.ssp ship/position.x ship/position.y mooring/ship.force.x mooring/ship.force.y
 
-FMPy's own `simulate_ssp` starts every connection at zero; a fairlead must start where its line was put in equilibrium.
+prints the connectors named (COMPONENT/CONNECTOR) every ten seconds. FMPy's own `simulate_ssp` starts every connection at zero; a fairlead must start
+where its line was put in equilibrium.
 """
 
 import pathlib
@@ -17,8 +19,8 @@ from fmpy.ssp.ssd import read_ssd
 STEP, END, REPORT = 0.1, 120.0, 10.0
 
 
-def run(package: str, end: float = END) -> list[tuple[float, float, float, float]]:
-    """Rows of time [s], surge [m], tension of the bow line and of the stern line [N]."""
+def run(package: str, seen: list[tuple[str, str]], end: float = END) -> list[list[float]]:
+    """Rows of time [s] and the values of connectors, each named by its component and itself."""
     system = read_ssd(package).system
     folder = pathlib.Path(extract(package))
     fmus, references, unpacked = {}, {}, [folder]
@@ -59,8 +61,7 @@ def run(package: str, end: float = END) -> list[tuple[float, float, float, float
         for fmu in fmus.values():
             fmu.doStep(currentCommunicationPoint=index * STEP, communicationStepSize=STEP)
         if (index + 1) % round(REPORT / STEP) == 0:
-            surge = value("vessel", "bow.position.x") - 50.0
-            rows.append(((index + 1) * STEP, surge, value("bow line", "tension"), value("stern line", "tension")))
+            rows.append([(index + 1) * STEP, *(value(*name) for name in seen)])
     for fmu in fmus.values():
         fmu.terminate()
         fmu.freeInstance()
@@ -70,5 +71,6 @@ def run(package: str, end: float = END) -> list[tuple[float, float, float, float
 
 
 if __name__ == "__main__":
-    for time, surge, bow, stern in run(sys.argv[1]):
-        print(f"t = {time:5.0f} s   surge {surge:7.3f} m   bow {bow / 1e3:8.1f} kN   stern {stern / 1e3:8.1f} kN")
+    print("t [s]", *sys.argv[2:], sep=", ")
+    for row in run(sys.argv[1], [tuple(name.split("/", 1)) for name in sys.argv[2:]]):
+        print(*(f"{number:.6g}" for number in row), sep=", ")

@@ -67,6 +67,12 @@ impl Cubic {
         y * y * y * b[0] + 3.0 * y * y * x * b[1] + 3.0 * y * x * x * b[2] + x * x * x * b[3]
     }
 
+    /// End values and end slopes (by x), [`Cubic::hermite`] undone: y0, d0, y1, d1.
+    pub fn ends(&self) -> [f64; 4] {
+        let b = &self.0;
+        [b[0], 3.0 * (b[1] - b[0]), b[3], 3.0 * (b[3] - b[2])]
+    }
+
     /// The same with an x in every lane.
     #[inline(always)]
     pub fn in_lanes<F: Real>(&self, x: F) -> F {
@@ -243,6 +249,15 @@ mod tests {
         for (found, exact) in [(parts[0].from, 0.2), (parts[0].to, 0.5), (parts[1].from, 0.9), (parts[1].to, 1.0)] {
             assert!((found - exact).abs() < 1e-13, "{found} {exact}");
         }
+    }
+
+    /// End values and slopes make the cubic that they were taken of, to rounding.
+    #[test]
+    fn a_cubic_is_that_of_its_ends() {
+        let cubic = Cubic([1.0, -2.0, 0.5, 3.0]);
+        let [y0, d0, y1, d1] = cubic.ends();
+        let again = Cubic::hermite(y0, d0, y1, d1);
+        (0..4).for_each(|k| assert!((again.0[k] - cubic.0[k]).abs() < 1e-14, "{again:?}"));
     }
 
     /// A cubic is known by its values at four places, to rounding.

@@ -86,6 +86,9 @@ pub const GAUSS4: [GaussPoint; 4] = [
 /// Shape functions of unit length at the three Gauss points.
 pub const SHAPES3: [Shape; 3] = [Shape::at(GAUSS3[0].x), Shape::at(GAUSS3[1].x), Shape::at(GAUSS3[2].x)];
 
+/// Shape functions of unit length at the four Gauss points.
+pub const SHAPES4: [Shape; 4] = [Shape::at(GAUSS4[0].x), Shape::at(GAUSS4[1].x), Shape::at(GAUSS4[2].x), Shape::at(GAUSS4[3].x)];
+
 #[cfg(test)]
 mod tests {
     use super::*;

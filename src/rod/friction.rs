@@ -19,6 +19,7 @@
 //! An element holds on at its three Gauss points, whatever part of it touches. The push that counts at each is that on its part of the
 //! element, integrated exactly, so that the friction on the line is μ times the push on the line, and nothing jumps where it lifts off.
 
+use crate::rod::ends::Ends;
 use crate::rod::mesh::Mesh;
 use crate::rod::seabed::Plane;
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -55,8 +56,8 @@ pub struct Friction {
 /// A part of an element on the bed, and the point at which it holds on.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact {
-    /// r [m].
-    pub position: Vector3<f64>,
+    /// P r, along the axes of the bed [m].
+    pub place: Vector2<f64>,
     /// p, mean over the part [N/m].
     pub push: f64,
     /// r_h, along the axes of the bed [m].
@@ -105,24 +106,27 @@ impl Friction {
         Vector2::new(self.axes[0].dot(r), self.axes[1].dot(r))
     }
 
-    fn in_space(&self, x: &Vector2<f64>) -> Vector3<f64> {
+    /// End values and slopes of an element along each axis of the bed.
+    pub fn profiles(&self, ends: &Ends<f64>) -> [[f64; 4]; 2] {
+        let parts = ends.parts();
+        self.axes.map(|axis| parts.map(|part| part.along(&axis)))
+    }
+
+    /// A vector from its components along the axes of the bed.
+    pub fn in_space(&self, x: &Vector2<f64>) -> Vector3<f64> {
         self.axes[0] * x.x + self.axes[1] * x.y
     }
 
     /// Pull of the spring [N/m], and the size from which on the line slides.
     fn pull(&self, e: usize, at: &Contact) -> (Vector2<f64>, f64) {
-        ((self.along(&at.position) - at.hold) * -self.grips[e].stiffness, self.coefficient * at.push)
+        ((at.place - at.hold) * -self.grips[e].stiffness, self.coefficient * at.push)
     }
 
-    fn bounded_pull(&self, e: usize, at: &Contact) -> Vector2<f64> {
+    /// Friction at a point of element `e`, along the axes of the bed [N/m].
+    pub fn force(&self, e: usize, at: &Contact) -> Vector2<f64> {
         let (pull, bound) = self.pull(e, at);
         let size = pull.norm();
         if size > bound { pull * (bound / size) } else { pull }
-    }
-
-    /// Friction [N/m] at a point of element `e`.
-    pub fn force(&self, e: usize, at: &Contact) -> Vector3<f64> {
-        self.in_space(&self.bounded_pull(e, at))
     }
 
     /// Its tangent.
@@ -142,6 +146,6 @@ impl Friction {
 
     /// Place to which a point of element `e` holds on after a step: where the spring in time gives the friction that acts now.
     pub fn hold(&self, e: usize, at: &Contact) -> Vector2<f64> {
-        self.along(&at.position) + self.bounded_pull(e, at) / self.grips[e].kept
+        at.place + self.force(e, at) / self.grips[e].kept
     }
 }

@@ -109,6 +109,13 @@ pub fn grounded_tangent(stiffness: f64, length: f64) -> [[f64; 4]; 4] {
     std::array::from_fn(|k| std::array::from_fn(|l| stiffness * length * PRODUCTS[k][l] * lever[k] * lever[l] / 420.0))
 }
 
+/// Push on the ends of an element that touches an undamped bed all along [N, N·m], given end values and slopes of its penetration p by x [m]:
+/// how much of it there is along N.
+pub fn grounded_push(stiffness: f64, length: f64, p: &[f64; 4]) -> [f64; 4] {
+    let scale = stiffness * length / 420.0;
+    PRODUCTS.map(|row| scale * (0..4).map(|l| row[l] * p[l]).sum::<f64>())
+}
+
 /// The bed as the fast loop sees it: rows with one number per element.
 #[derive(Debug, Clone)]
 pub struct Bed {

@@ -4,10 +4,10 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::polynomial::{Cubic, Interval, Intervals};
-use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, SHAPES3, Shape};
+use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, SHAPES3, SHAPES4, Shape};
 use crate::algebra::triple::Triple;
 use crate::rod::element::Table;
-use crate::rod::element_tangent::{ElementTangent, PointTangent};
+use crate::rod::element_tangent::ElementTangent;
 use crate::rod::ends::Ends;
 use crate::rod::friction::{Contact, Friction};
 use crate::rod::motion::{Motion, Weights};
@@ -34,63 +34,63 @@ impl Ground {
     }
 
     /// Height of the element above the bed, unless it is certainly clear of it.
-    fn near(&self, table: &Table, u: &Field, e: usize) -> Option<Cubic> {
-        let length = table.length_of(e);
-        let profile = self.plane.profile(&u.position(e), &(u.slope(e) * length), &u.position(e + 1), &(u.slope(e + 1) * length));
+    fn near(&self, table: &Table, u: &Ends<f64>, e: usize) -> Option<Cubic> {
+        let profile = self.profile(u);
         (!profile.above(self.resistance[e].onset) && !table.is_joint(e)).then_some(profile)
+    }
+
+    /// End values and slopes of the penetration of an element that touches all along and is pushed by springs alone [m].
+    fn grounded(&self, e: usize, profile: &Cubic) -> Option<[f64; 4]> {
+        let resistance = &self.resistance[e];
+        let springs = resistance.damping == 0.0 && profile.below(resistance.onset);
+        springs.then(|| Cubic(profile.0.map(|g| resistance.onset - g)).ends())
     }
 
     /// What the push of the bed adds to the forces on the ends of element `e`, if it is near.
     pub fn forces(&self, table: &Table, at: &Motion, e: usize) -> Option<[Triple<f64>; 4]> {
-        let profile = self.near(table, at.u, e)?;
         let length = table.length_of(e);
+        let u = Ends::gather(at.u, e, length);
+        let profile = self.near(table, &u, e)?;
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
-        let dissipates = resistance.damping != 0.0 || self.friction.is_some();
-        let rates = if dissipates { Ends::gather(at.v, e, length).along(normal) } else { Cubic([0.0; 4]) };
-        let touching = resistance.touching(&profile);
-        let mut pushes = [0.0; 4];
-        for part in touching.iter() {
-            let span = part.to - part.from;
-            for point in &GAUSS4 {
-                let x = part.from + span * point.x;
-                let push =
-                    resistance.push(profile.at(x), if dissipates { rates.at(x) } else { 0.0 }) * (point.weight * span * length);
-                let value = Shape::at(x).value;
+        let (pushes, on_parts) = if let Some(p) = self.grounded(e, &profile) {
+            (
+                seabed::grounded_push(-resistance.stiffness, length, &p),
+                self.friction.as_ref().map(|_| grounded_parts(resistance, &p)),
+            )
+        } else {
+            let dissipates = resistance.damping != 0.0 || self.friction.is_some();
+            let rates = if dissipates { Ends::gather(at.v, e, length).along(normal) } else { Cubic([0.0; 4]) };
+            let touching = resistance.touching(&profile);
+            let (mut pushes, [heights, rising]) = ([0.0; 4], [profile, rates].map(|cubic| cubic.ends()));
+            each_point(&touching, |value, weight| {
+                let rate = if dissipates { combined(value, &rising) } else { 0.0 };
+                let push = resistance.push(combined(value, &heights), rate) * (weight * length);
                 (0..4).for_each(|k| pushes[k] -= push * value[k]);
+            });
+            (pushes, self.friction.as_ref().map(|_| parts(resistance, &profile, &touching, &rates)))
+        };
+        let mut sum = pushes.map(|push| normal * push);
+        if let Some((friction, on_parts)) = self.friction.as_ref().zip(on_parts) {
+            let (profiles, mut dragged) = (friction.profiles(&u), [Vector2::zeros(); 4]);
+            for (g, push) in on_parts.into_iter().enumerate().filter(|(_, push)| *push > 0.0) {
+                let force = friction.force(e, &contact(&profiles, push, (e, g), at.holds)) * -(GAUSS3[g].weight * length);
+                (0..4).for_each(|k| dragged[k] += force * SHAPES3[g].value[k]);
             }
+            (0..4).for_each(|k| sum[k] += friction.in_space(&dragged[k]));
         }
-        let mut sum = pushes.map(|push| Triple::from(normal * push));
-        if let Some(friction) = &self.friction {
-            let u = Ends::gather(at.u, e, length);
-            for g in 0..3 {
-                let contact = self.contact(&u, (&profile, &touching, &rates), (e, g), at.holds);
-                let force = friction.force(e, &contact) * -(GAUSS3[g].weight * length);
-                (0..4).for_each(|k| sum[k] = Triple::from(force).scale_add(SHAPES3[g].value[k], sum[k]));
-            }
-        }
-        Some(sum)
+        Some(sum.map(Triple::from))
     }
 
-    /// Part `g` of element `e` and the place of the bed to which it holds on; given the element's height above the bed, where it
-    /// touches, and the rate of that height.
-    fn contact(
-        &self,
-        u: &Ends<f64>,
-        (profile, touching, rates): (&Cubic, &Intervals, &Cubic),
-        (e, g): (usize, usize),
-        holds: &Field,
-    ) -> Contact {
-        let resistance = &self.resistance[e];
-        let push: f64 = touching
-            .iter()
-            .flat_map(|part| points_on(part, g))
-            .map(|point| point.weight * resistance.push(profile.at(point.x), rates.at(point.x)))
-            .sum();
-        Contact {
-            position: u.combine(&SHAPES3[g].value).into(),
-            push: push / GAUSS3[g].weight,
-            hold: Vector2::new(holds.component(2 * g)[e], holds.component(2 * g + 1)[e]),
+    /// Push on the parts of element `e` [N/m], given where it is and how fast.
+    fn on_parts(&self, u: &Ends<f64>, v: impl FnOnce() -> Ends<f64>, e: usize) -> [f64; 3] {
+        let (profile, resistance) = (self.profile(u), &self.resistance[e]);
+        if profile.above(resistance.onset) {
+            return [0.0; 3];
         }
+        if let Some(p) = self.grounded(e, &profile) {
+            return grounded_parts(resistance, &p);
+        }
+        parts(resistance, &profile, &resistance.touching(&profile), &v().along(&self.plane.normal))
     }
 
     /// Places of the bed to which a line holds on that was laid slack, from its anchor on, to where it lies now, and then stretched.
@@ -122,11 +122,10 @@ impl Ground {
         let Some(friction) = &self.friction else { return };
         for e in (0..table.len()).filter(|e| !table.is_joint(*e)) {
             let length = table.length_of(e);
-            let (u, v) = (Ends::gather(u, e, length), Ends::gather(v, e, length));
-            let (profile, rates) = (self.profile(&u), v.along(&self.plane.normal));
-            let touching = self.resistance[e].touching(&profile);
-            for g in 0..3 {
-                let hold = friction.hold(e, &self.contact(&u, (&profile, &touching, &rates), (e, g), holds));
+            let u = Ends::gather(u, e, length);
+            let profiles = friction.profiles(&u);
+            for (g, push) in self.on_parts(&u, || Ends::gather(v, e, length), e).into_iter().enumerate() {
+                let hold = friction.hold(e, &contact(&profiles, push, (e, g), holds));
                 (0..2).for_each(|c| holds.component_mut(2 * g + c)[e] = hold[c]);
             }
         }
@@ -134,48 +133,57 @@ impl Ground {
 
     /// Adds the tangent of the push on element `e` to the matrix.
     pub fn tangent(&self, table: &Table, at: &Motion, e: usize, weights: &Weights, matrix: &mut BlockTridiagonal<6>) {
-        let Some(profile) = self.near(table, at.u, e) else { return };
         let length = table.length_of(e);
         let (u, v) = (Ends::gather(at.u, e, length), Ends::gather(at.v, e, length));
+        let Some(profile) = self.near(table, &u, e) else { return };
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
-        let touching = resistance.touching(&profile);
+        let grounded = self.grounded(e, &profile);
+        let touching = if grounded.is_some() { Intervals::whole() } else { resistance.touching(&profile) };
+        let rates = v.along(normal);
         let stiffness = |height: f64, rate: f64| {
             let (by_position, by_rate) = resistance.tangent(height, rate);
             -(by_position * weights.u + by_rate * weights.v)
         };
-        let products = if resistance.damping == 0.0 && profile.below(resistance.onset) {
+        let lever = [1.0, length, 1.0, length];
+        let products = if grounded.is_some() {
             seabed::grounded_tangent(resistance.stiffness * weights.u, length)
         } else {
-            let mut products = [[0.0; 4]; 4];
-            for part in touching.iter() {
-                for point in &GAUSS4 {
-                    let shape = Shape::at(part.from + (part.to - part.from) * point.x);
-                    let rate = v.combine(&shape.value).along(normal);
-                    let stiffness = stiffness(self.plane.height(&u.combine(&shape.value).into()), rate);
-                    let value = shape.scaled(length).value;
-                    add_product(&mut products, stiffness * point.weight * (part.to - part.from) * length, &value, &value);
-                }
-            }
+            let (mut products, [heights, rising]) = ([[0.0; 4]; 4], [profile, rates].map(|cubic| cubic.ends()));
+            each_point(&touching, |shape, weight| {
+                let stiffness = stiffness(combined(shape, &heights), combined(shape, &rising));
+                let value = std::array::from_fn(|k| shape[k] * lever[k]);
+                add_product(&mut products, stiffness * weight * length, &value, &value);
+            });
             products
         };
         let mut sum = ElementTangent::zero(());
         sum.add_products(&products, &projector(normal).into());
         if let Some(friction) = &self.friction {
-            let rates = v.along(normal);
-            for g in 0..3 {
-                let contact = self.contact(&u, (&profile, &touching, &rates), (e, g), at.holds);
-                if contact.push > 0.0 {
-                    let (change, measure) = (friction.tangent(e, &contact), GAUSS3[g].weight * length);
-                    let shape = SHAPES3[g].scaled(length);
-                    let point = PointTangent::of_load((-change.by_position * weights.u).into());
-                    sum.add(&shape, measure, 1.0, &point);
-                    let mut products = [[0.0; 4]; 4];
+            let on_parts = match &grounded {
+                Some(p) => grounded_parts(resistance, p),
+                None => parts(resistance, &profile, &touching, &rates),
+            };
+            let profiles = friction.profiles(&u);
+            for (g, push) in on_parts.into_iter().enumerate().filter(|(_, push)| *push > 0.0) {
+                let change = friction.tangent(e, &contact(&profiles, push, (e, g), at.holds));
+                let shape = SHAPES3[g].scaled(length);
+                let mut products = [[0.0; 4]; 4];
+                add_product(&mut products, GAUSS3[g].weight * length, &shape.value, &shape.value);
+                sum.add_products(&products, &(change.by_position * -weights.u).into());
+                if change.by_push == Vector3::zeros() {
+                    continue;
+                }
+                products = [[0.0; 4]; 4];
+                if grounded.is_some() {
+                    let parts = std::array::from_fn(|k| PART_WEIGHTS[g][k] * lever[k]);
+                    add_product(&mut products, resistance.stiffness * weights.u * length, &shape.value, &parts);
+                } else {
                     for point in touching.iter().flat_map(|part| points_on(part, g)) {
                         let scale = stiffness(profile.at(point.x), rates.at(point.x)) * point.weight * length;
                         add_product(&mut products, scale, &shape.value, &Shape::at(point.x).scaled(length).value);
                     }
-                    sum.add_products(&products, &(change.by_push * normal.transpose()).into());
                 }
+                sum.add_products(&products, &(change.by_push * normal.transpose()).into());
             }
         }
         sum.add_to(matrix, e, 1.0, e + 1);
@@ -183,8 +191,48 @@ impl Ground {
 
     /// Unstretched length of element `e` in contact [m].
     pub fn touching_length(&self, table: &Table, u: &Field, e: usize) -> f64 {
-        self.near(table, u, e).map_or(0.0, |profile| self.resistance[e].touching(&profile).length() * table.length_of(e))
+        self.near(table, &Ends::gather(u, e, table.length_of(e)), e)
+            .map_or(0.0, |profile| self.resistance[e].touching(&profile).length() * table.length_of(e))
     }
+}
+
+/// Part `g` of element `e`, pushed by `push` [N/m], and the place of the bed to which it holds on; `profiles` along the axes of the bed.
+fn contact(profiles: &[[f64; 4]; 2], push: f64, (e, g): (usize, usize), holds: &Field) -> Contact {
+    let hold = Vector2::new(holds.component(2 * g)[e], holds.component(2 * g + 1)[e]);
+    let [x, y] = profiles.map(|profile| combined(&SHAPES3[g].value, &profile));
+    Contact { place: Vector2::new(x, y), push, hold }
+}
+
+/// Push on the parts of an element that touches all along and is pushed by springs alone [N/m], given end values and slopes of its penetration.
+fn grounded_parts(resistance: &Resistance, p: &[f64; 4]) -> [f64; 3] {
+    std::array::from_fn(|g| resistance.stiffness * combined(&PART_WEIGHTS[g], p) / GAUSS3[g].weight)
+}
+
+/// Push on the parts of an element [N/m]; given its height above the bed, where it touches, and the rate of that height.
+fn parts(resistance: &Resistance, profile: &Cubic, touching: &Intervals, rates: &Cubic) -> [f64; 3] {
+    std::array::from_fn(|g| {
+        let points = touching.iter().flat_map(|part| points_on(part, g));
+        points.map(|point| point.weight * resistance.push(profile.at(point.x), rates.at(point.x))).sum::<f64>() / GAUSS3[g].weight
+    })
+}
+
+/// Calls `at` for the four Gauss points of each part that touches, with the values of the shape functions there and its weight.
+fn each_point(touching: &Intervals, mut at: impl FnMut(&[f64; 4], f64)) {
+    for part in touching.iter() {
+        let span = part.to - part.from;
+        for (point, shape) in GAUSS4.iter().zip(&SHAPES4) {
+            if span == 1.0 {
+                at(&shape.value, point.weight);
+            } else {
+                at(&Shape::at(part.from + span * point.x).value, point.weight * span);
+            }
+        }
+    }
+}
+
+/// Σ a_k b_k.
+fn combined(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
 }
 
 /// products[k][l] += scale a_k b_l.
@@ -196,6 +244,24 @@ fn add_product(products: &mut [[f64; 4]; 4], scale: f64, a: &[f64; 4], b: &[f64;
 
 /// Ends of the three parts of an element that hold on to the bed, each at a Gauss point: as long as the points weigh.
 const PARTS: [f64; 4] = [0.0, 5.0 / 18.0, 13.0 / 18.0, 1.0];
+
+/// Integrals of the shape functions over each part of an element of unit length, by three Gauss points, which are exact.
+const PART_WEIGHTS: [[f64; 4]; 3] = [part_weights(0), part_weights(1), part_weights(2)];
+
+const fn part_weights(g: usize) -> [f64; 4] {
+    let (from, width) = (PARTS[g], PARTS[g + 1] - PARTS[g]);
+    let (mut sum, mut point) = ([0.0; 4], 0);
+    while point < 3 {
+        let value = Shape::at(from + width * GAUSS3[point].x).value;
+        let mut k = 0;
+        while k < 4 {
+            sum[k] += width * GAUSS3[point].weight * value[k];
+            k += 1;
+        }
+        point += 1;
+    }
+    sum
+}
 
 /// Quadrature points of an interval as far as it lies in part `g` of an element.
 fn points_on(interval: Interval, g: usize) -> impl Iterator<Item = GaussPoint> {

@@ -267,7 +267,7 @@ pub struct Clamp {
 
 /// How stiff a clamp is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "a number or \"clamped\"")]
+#[serde(untagged, expecting = "another value, expected a number or \"clamped\"")]
 pub enum Stiffness {
     /// So much [N·m/rad].
     Of(f64),

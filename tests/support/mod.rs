@@ -26,6 +26,7 @@ use nalgebra::{DMatrix, SVector, Vector3};
 use serde_json::Value;
 
 pub mod program;
+pub mod python;
 pub mod random;
 
 pub const GRAVITY: f64 = 9.80665;
