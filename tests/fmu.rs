@@ -171,6 +171,11 @@ fn a_ship_and_its_mooring_are_one_fmu_each_in_libcosim_and_in_ssp() {
 }
 
 #[test]
+fn a_moored_ship_in_one_fmu_goes_through_what_a_line_goes_through() {
+    moored("spread-moored-ship", "tests/fmu/moored.py", &["run.duration=0"]);
+}
+
+#[test]
 fn held_inputs_warnings_and_clocks_are_understood() {
     script("multirate.py");
     script("told.py");
