@@ -366,7 +366,7 @@ impl Instance {
         let said: Vec<Said> = self.moment.vessels.iter().map(|vessel| vessel.said).collect();
         let reports = built.settle(start, &said).map_err(|error| self.refusal(error))?;
         for (index, report) in reports.into_iter().enumerate() {
-            let (outputs, _) = built.outputs(index);
+            let outputs = built.outputs(index);
             if !is_finite(&outputs) {
                 return Err(Refusal::NotANumber { line: self.interface.prefix(index), until: start });
             }

@@ -145,7 +145,7 @@ impl Instance {
     pub(super) fn reach(&mut self, time: f64) {
         let Some(built) = &mut self.built else { return };
         let outputs: Vec<Outputs> = self.moment.ends.iter().map(|end| end.outputs).collect();
-        let works: Vec<[f64; 2]> = (0..built.lines.len()).map(|line| built.outputs(line).1).collect();
+        let works: Vec<[f64; 2]> = (0..built.lines.len()).map(|line| built.works(line)).collect();
         for (index, vessel) in self.moment.vessels.iter_mut().enumerate() {
             let of = &built.vessels[index];
             let motion = match of.member {

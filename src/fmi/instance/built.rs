@@ -234,18 +234,20 @@ impl Built {
         Err(error)
     }
 
-    /// Outputs of a line now, with the work on what drives its ends, fairlead and anchor [J].
-    pub fn outputs(&mut self, index: usize) -> (Outputs, [f64; 2]) {
+    /// Outputs of a line now.
+    pub fn outputs(&mut self, index: usize) -> Outputs {
+        let [work, _] = self.works(index);
         match &mut self.lines[index].what {
-            What::Own(simulation) => {
-                let outputs = simulation.observe();
-                (outputs, [outputs.work, simulation.anchor_work()])
-            }
-            What::Member { group, local } => {
-                let group = &mut self.groups[*group];
-                let works = [EndOf::Fairlead, EndOf::Anchor].map(|end| group.work(*local, end));
-                (Outputs { work: works[0], ..group.outputs(*local) }, works)
-            }
+            What::Own(simulation) => simulation.observe(),
+            What::Member { group, local } => Outputs { work, ..self.groups[*group].outputs(*local) },
+        }
+    }
+
+    /// Work on what drives the ends of a line, fairlead and anchor [J].
+    pub fn works(&self, index: usize) -> [f64; 2] {
+        match &self.lines[index].what {
+            What::Own(simulation) => [simulation.work(), simulation.anchor_work()],
+            What::Member { group, local } => [EndOf::Fairlead, EndOf::Anchor].map(|end| self.groups[*group].work(*local, end)),
         }
     }
 

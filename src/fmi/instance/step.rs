@@ -117,7 +117,7 @@ impl Instance {
         let (begin, mut told) = (self.moment.clock, Vec::new());
         let Some(built) = &mut self.built else { return Err(Refusal::UnknownState) };
         for index in 0..built.lines.len() {
-            let (outputs, last) = (built.outputs(index).0, built.last_step(index));
+            let (outputs, last) = (built.outputs(index), built.last_step(index));
             let (line, end) = (&mut built.lines[index], &mut self.moment.ends[index]);
             end.outputs = outputs;
             if !is_finite(&end.outputs) {

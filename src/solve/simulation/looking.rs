@@ -131,6 +131,11 @@ impl Simulation {
         [self.work, self.anchor_work] = work;
     }
 
+    /// Work done on what moves the fairlead since the start [J].
+    pub fn work(&self) -> f64 {
+        self.work
+    }
+
     /// Work done on what moves the anchor since the start [J], where it is summed up.
     pub fn anchor_work(&self) -> f64 {
         self.anchor_work
