@@ -1,4 +1,4 @@
-"""What a sea costs: the built-in case in waves of more and more components, beside the same run in still water.
+"""What a sea costs: the built-in case in waves of more and more components, beside the same run in still water, as a table in docs/benchmarks.md.
 
     cargo build --release && python3 tests/bench/waves.py [--quick]
 
@@ -11,7 +11,7 @@ import math
 import random
 import sys
 
-from measure import fastest, on_one_core, table
+from measure import fastest, machine, on_one_core, put, table
 from scenes import BUILT_IN, altered
 
 BASE = altered(BUILT_IN, run={"duration": 100.0}, motion={"ramp": 7.5})
@@ -63,7 +63,9 @@ def main():
             row[4] = f"{math.dist(run.tension, judge.tension) / math.hypot(*judge.tension):.1e}"
         rows.append(row)
     head = ["sea", "time [ms]", "per still water", "summed one by one", "error of the tension"]
-    print(table(head, [[name, f"{ms:.1f}", f"{ratio:.1f}", *rest] for name, ms, ratio, *rest in rows]))
+    text = table(head, [[name, f"{ms:.1f}", f"{ratio:.1f}", *rest] for name, ms, ratio, *rest in rows])
+    print(text)
+    put("waves", "python3 tests/bench/waves.py --quick", f"{text}\n\nOne core of {machine()}.")
 
 
 if __name__ == "__main__":
