@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use std::io::{ErrorKind, Write};
-use std::process::ExitCode;
 
 /// Prints a text on standard output as it stands.
 pub fn print(text: &str) -> Result<(), Error> {
@@ -31,9 +30,9 @@ fn say(kind: &str, message: &str) {
 }
 
 /// Prints what the argument parser has to say: help and version with exit code 0, mistakes with 2.
-pub fn usage(answer: &clap::Error) -> ExitCode {
+pub fn usage(answer: &clap::Error) -> u8 {
     let _ = answer.print();
-    if answer.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS }
+    if answer.use_stderr() { 2 } else { 0 }
 }
 
 /// Text of the user as it may appear on a terminal: without control characters.

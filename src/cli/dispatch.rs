@@ -9,6 +9,11 @@ use std::process::ExitCode;
 
 /// Runs the command line and turns its outcome into the exit code.
 pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
+    ExitCode::from(answer(arguments))
+}
+
+/// The same for a program in another language: the exit code as a number.
+pub fn answer(arguments: impl Iterator<Item = OsString>) -> u8 {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(answer) => return console::usage(&answer),
@@ -24,10 +29,10 @@ pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
         Some(Command::Convert(arguments)) => convert::convert(&arguments),
     };
     match outcome {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(Stop::Failed(error)) => {
             console::error(&error.to_string());
-            ExitCode::from(error.exit_code())
+            error.exit_code()
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::cli::stop::Stop;
 use crate::error::{Error, among};
 use crate::report::tables;
 use crate::scene::read::{self, Loaded};
+use crate::scene::types::Scene;
 use crate::solve::fleet;
 use crate::solve::mooring::{Equilibrium, Mooring};
 use serde_json::Value;
@@ -24,37 +25,67 @@ const STEPS: usize = 60;
 pub fn fit(arguments: &FitArguments) -> Result<(), Stop> {
     let given = read::load(&arguments.scene, &arguments.sets)?;
     given.warnings.iter().for_each(|warning| console::warning(warning));
+    let found = find(&given, &arguments.change, &arguments.until, arguments.range.as_deref())?;
+    found.warning.iter().for_each(|warning| console::warning(warning));
+    let output = arguments.output.clone().unwrap_or_else(|| arguments.scene.with_extension("fitted.json"));
+    tables::write(&output, &(serde_json::to_string_pretty(&found.scene).unwrap_or_default() + "\n"))?;
+    let text = format!(
+        "{} = {:.9} (was {}) gives {} = {:.9e}\n  {}\n",
+        on_terminal(&arguments.change),
+        found.value,
+        found.before,
+        found.what,
+        found.reached,
+        on_terminal(&output.display().to_string())
+    );
+    Ok(console::print(&text)?)
+}
+
+/// What was found.
+pub struct Found {
+    /// The scene with it.
+    pub scene: Scene,
+    /// The value.
+    pub value: f64,
+    /// What it was.
+    pub before: f64,
+    /// Name of the result.
+    pub what: String,
+    /// The result with it.
+    pub reached: f64,
+    /// That other values would do as well, if they would.
+    pub warning: Option<String>,
+}
+
+/// Finds the value at the place `change` for which `until` (`bow.tension=1.2e6`) holds, in a range (`700:800`) or from a quarter to four times
+/// the present value. Errors name what cannot be read, reached or found.
+pub fn find(given: &Loaded, change: &str, until: &str, range: Option<&str>) -> Result<Found, Error> {
     let refuse = |place: &str, value: &str, allowed: String| -> Error {
         Error::Value { file: given.file.clone(), place: place.to_owned(), value: value.to_owned(), allowed }
     };
     let form = "write it as bow.tension=1.2e6: a line, body or point, what of it, and the value wanted in SI units";
-    let parted = arguments.until.split_once('=').and_then(|(what, value)| Some((what, value.trim().parse::<f64>().ok()?)));
+    let parted = until.split_once('=').and_then(|(what, value)| Some((what, value.trim().parse::<f64>().ok()?)));
     let (what, wanted) =
-        parted.filter(|(_, value)| value.is_finite()).ok_or_else(|| refuse("--until", &arguments.until, form.to_owned()))?;
-    let pointer = pointer(&arguments.change);
+        parted.filter(|(_, value)| value.is_finite()).ok_or_else(|| refuse("--until", until, form.to_owned()))?;
+    let pointer = pointer(change);
     let whole = serde_json::to_value(&given.scene).unwrap_or_default();
     let present = whole.pointer(&pointer).and_then(Value::as_f64).ok_or_else(|| {
-        refuse("--change", &arguments.change, "name a number of the scene, such as lines[0].sections[0].length".to_owned())
+        refuse("--change", change, "name a number of the scene, such as lines[0].sections[0].length".to_owned())
     })?;
-    let (low, high) = match &arguments.range {
+    let (low, high) = match range {
         Some(range) => {
             let numbers: Vec<f64> = range.split(':').map_while(|number| number.trim().parse().ok()).collect();
             match numbers[..] {
                 [low, high] if low < high => (low, high),
-                _ => return Err(refuse("--range", range, "write it as 700:800, the smaller first".to_owned()).into()),
+                _ => return Err(refuse("--range", range, "write it as 700:800, the smaller first".to_owned())),
             }
         }
         None if present == 0.0 => {
-            return Err(refuse(
-                "--change",
-                &arguments.change,
-                "its value is 0: say where to look with --range FROM:TO".to_owned(),
-            )
-            .into());
+            return Err(refuse("--change", change, "its value is 0: say where to look with --range FROM:TO".to_owned()));
         }
         None => (0.25 * present.abs(), 4.0 * present.abs()),
     };
-    let (low, high) = if arguments.range.is_none() && present < 0.0 { (-high, -low) } else { (low, high) };
+    let (low, high) = if range.is_none() && present < 0.0 { (-high, -low) } else { (low, high) };
     // In the whole scene, so that what the file leaves to defaults can be changed, too.
     let with = |value: f64| -> Result<Loaded, Error> {
         let mut changed = whole.clone();
@@ -71,7 +102,7 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Stop> {
     // What cannot be asked for is said before anything is searched.
     let first = solve(present);
     if let Err(error @ Error::Value { .. }) = &first {
-        return Err(error.clone().into());
+        return Err(error.clone());
     }
     let mut values: Vec<f64> = (0..TRIALS).map(|k| low + (high - low) * k as f64 / (TRIALS - 1) as f64).collect();
     values.push(present);
@@ -89,30 +120,20 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Stop> {
             || "there is no equilibrium for any".to_owned(),
             |(value, off)| format!("the nearest is {:.6e} at {value:.6}", off + wanted),
         );
-        let allowed = format!(
-            "no value of {} from {low:.6} to {high:.6} gives it: {near}. Look elsewhere with --range FROM:TO",
-            arguments.change
-        );
-        return Err(refuse("--until", &arguments.until, allowed).into());
+        let allowed =
+            format!("no value of {} from {low:.6} to {high:.6} gives it: {near}. Look elsewhere with --range FROM:TO", change);
+        return Err(refuse("--until", until, allowed));
     };
-    if passes.len() > 1 {
+    let warning = (passes.len() > 1).then(|| {
         let places: Vec<String> = passes.iter().map(|pair| format!("{:.4}", 0.5 * (pair[0].0 + pair[1].0))).collect();
-        console::warning(&format!(
-            "more than one value gives {}: near {}; the one nearest to the present {present} is taken. Choose with --range FROM:TO",
-            arguments.until,
+        format!(
+            "more than one value gives {until}: near {}; the one nearest to the present {present} is taken. Choose with --range FROM:TO",
             places.join(", ")
-        ));
-    }
+        )
+    });
     let (value, reached) = false_position(*nearest, wanted.abs().max(f64::MIN_POSITIVE), &solve, wanted)?;
     let fitted = with(value)?;
-    let output = arguments.output.clone().unwrap_or_else(|| arguments.scene.with_extension("fitted.json"));
-    tables::write(&output, &(serde_json::to_string_pretty(&fitted.scene).unwrap_or_default() + "\n"))?;
-    let text = format!(
-        "{} = {value:.9} (was {present}) gives {what} = {reached:.9e}\n  {}\n",
-        on_terminal(&arguments.change),
-        on_terminal(&output.display().to_string())
-    );
-    Ok(console::print(&text)?)
+    Ok(Found { scene: fitted.scene, value, before: present, what: what.to_owned(), reached, warning })
 }
 
 /// The place between two at which the result is the wanted one.

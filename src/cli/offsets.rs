@@ -10,20 +10,41 @@ use crate::solve::mooring::{Equilibrium, Mooring};
 use std::path::Path;
 
 /// The six ways.
-const WAYS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+pub const WAYS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 /// Most offsets.
 const MOST: usize = 10_000;
 
-/// A range of offsets of a body.
-struct Range {
-    body: usize,
-    way: usize,
-    offsets: Vec<f64>,
+/// Offsets of a body.
+pub struct Range {
+    /// Its number in the scene.
+    pub body: usize,
+    /// Which way, by its number among `WAYS`.
+    pub way: usize,
+    /// The offsets [m] or [deg].
+    pub offsets: Vec<f64>,
 }
 
 /// Writes `offsets.csv` and `offsets.html` into a directory.
 pub fn offsets(loaded: &Loaded, asked: &str, output: &Path) -> Result<(), Error> {
-    let range = read(loaded, asked)?;
+    let (curve, lost) = curve(loaded, &read(loaded, asked)?)?;
+    lost.iter().for_each(|text| console::warning(text));
+    if curve.rows.is_empty() {
+        return refuse(loaded, asked, "the mooring reaches no offset of this range");
+    }
+    std::fs::create_dir_all(output)
+        .map_err(|error| Error::File { path: output.display().to_string(), reason: format!("cannot be made: {error}") })?;
+    let (table, page) = (output.join("offsets.csv"), output.join("offsets.html"));
+    tables::write(&table, &offsets::csv(&curve))?;
+    tables::write(&page, &offsets::html(&curve))?;
+    let lines = [
+        format!("{} offsets of \"{}\" in {}\n", curve.rows.len(), on_terminal(&curve.body), curve.way),
+        format!("  {}\n  {}  open this one in a browser\n", table.display(), page.display()),
+    ];
+    console::print(&lines.concat())
+}
+
+/// The curve of a range, of the offsets that the mooring reaches, and why it does not reach the others.
+pub fn curve(loaded: &Loaded, range: &Range) -> Result<(Curve, Vec<String>), Error> {
     let start = loaded.scene.run.start;
     let mut mooring = Mooring::new(loaded)?;
     let rest = mooring.equilibrium(start)?;
@@ -61,20 +82,7 @@ pub fn offsets(loaded: &Loaded, asked: &str, output: &Path) -> Result<(), Error>
             Err(error) => lost.push(format!("{} = {offset}: {error}", WAYS[range.way])),
         }
     }
-    lost.iter().for_each(|text| console::warning(text));
-    if curve.rows.is_empty() {
-        return mooring.equilibrium(start).and_then(|_| refuse(loaded, asked, "the mooring reaches no offset of this range"));
-    }
-    std::fs::create_dir_all(output)
-        .map_err(|error| Error::File { path: output.display().to_string(), reason: format!("cannot be made: {error}") })?;
-    let (table, page) = (output.join("offsets.csv"), output.join("offsets.html"));
-    tables::write(&table, &offsets::csv(&curve))?;
-    tables::write(&page, &offsets::html(&curve))?;
-    let lines = [
-        format!("{} offsets of \"{}\" in {}\n", curve.rows.len(), on_terminal(&curve.body), curve.way),
-        format!("  {}\n  {}  open this one in a browser\n", table.display(), page.display()),
-    ];
-    console::print(&lines.concat())
+    Ok((curve, lost))
 }
 
 fn refuse<T>(loaded: &Loaded, asked: &str, allowed: &str) -> Result<T, Error> {

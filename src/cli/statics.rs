@@ -18,7 +18,7 @@ use std::fmt::Write;
 
 /// All lines together: converged where every line is, iterations of all, the largest residual.
 #[derive(Serialize)]
-struct Equilibrium {
+pub struct Equilibrium {
     converged: bool,
     iterations: usize,
     /// Largest unbalanced nodal force [N].
@@ -94,7 +94,7 @@ pub fn statics(arguments: &StaticsArguments) -> Result<(), Stop> {
 }
 
 /// The equilibrium of all parts, and the first failure to converge. Fails itself where a line cannot even be meshed.
-fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
+pub fn solve(loaded: &Loaded) -> Result<(Equilibrium, Option<Error>), Error> {
     let mut equilibrium =
         Equilibrium { converged: true, iterations: 0, residual: 0.0, lines: Vec::new(), bodies: Vec::new(), points: Vec::new() };
     let mut failure = None;

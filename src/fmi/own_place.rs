@@ -12,7 +12,7 @@ pub fn resources() -> Option<PathBuf> {
 
 /// The file that this code was loaded from.
 #[cfg(unix)]
-fn library() -> Option<PathBuf> {
+pub fn library() -> Option<PathBuf> {
     use std::os::unix::ffi::OsStrExt;
     let mut info = libc::Dl_info {
         dli_fname: std::ptr::null(),
@@ -28,7 +28,7 @@ fn library() -> Option<PathBuf> {
 
 /// The file that this code was loaded from.
 #[cfg(windows)]
-fn library() -> Option<PathBuf> {
+pub fn library() -> Option<PathBuf> {
     use std::ffi::{OsString, c_void};
     use std::os::windows::ffi::OsStringExt;
     #[link(name = "kernel32")]
@@ -50,7 +50,7 @@ fn library() -> Option<PathBuf> {
 
 /// The file that this code was loaded from: unknown.
 #[cfg(not(any(unix, windows)))]
-fn library() -> Option<PathBuf> {
+pub fn library() -> Option<PathBuf> {
     None
 }
 

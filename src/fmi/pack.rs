@@ -3,6 +3,7 @@
 
 use crate::error::Error;
 use crate::fmi::body_variables::{self, Row};
+use crate::fmi::own_place;
 use crate::fmi::resource::{SCENE_FILE, guid};
 use crate::fmi::variables::{Interface, Kind, MODEL_DESCRIPTION, MOST_LINES, Meaning, Variable};
 use crate::scene::bodies::{BodyMotion, Mount, PointMotion};
@@ -41,9 +42,13 @@ pub struct Libraries {
 
 impl Libraries {
     /// The libraries that lie beside the running program or, as in cargo's folders, one above it or in `deps` beside it: there `cargo run`
-    /// leaves what nobody asked for by name.
+    /// leaves what nobody asked for by name. Where this code is a library of another program, as in Python, also those beside that library.
     pub fn beside_program() -> Libraries {
-        Libraries::beside(&std::env::current_exe().unwrap_or_default())
+        let mut libraries = Libraries::beside(&std::env::current_exe().unwrap_or_default());
+        if let Some(folder) = own_place::library().as_deref().and_then(Path::parent) {
+            libraries.add_from(folder);
+        }
+        libraries
     }
 
     /// The same beside any program.
@@ -188,7 +193,7 @@ fn write_archive(files: &[(String, Vec<u8>)], out: &Path) -> Result<(), Error> {
 }
 
 /// The scene without what lies in other files: the master moves the fairlead, so a motion from a file has no part in an FMU.
-fn self_contained(scene: &Scene) -> Scene {
+pub fn self_contained(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     if let Motion::File { .. } = scene.motion {
         scene.motion = Motion::Fixed;
