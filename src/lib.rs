@@ -95,6 +95,8 @@ pub mod rod {
 pub mod sea {
     pub mod clock;
     pub mod current;
+    pub mod drawing;
+    pub mod figures;
     pub mod near;
     pub mod series;
     pub mod spectrum;

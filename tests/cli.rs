@@ -448,6 +448,25 @@ fn check_says_what_is_on_what_is_skipped_the_mesh_and_the_cost() {
 }
 
 #[test]
+fn check_gives_the_figures_of_the_sea_and_says_what_breaks() {
+    let here = directory("check-sea");
+    let sea = |waves: &str| {
+        let output = moorline(&here, &["check", BUILT_IN, "--set", &format!("environment.waves={waves}")]);
+        assert_done(&output);
+        out(&output)
+    };
+    let calm = moorline(&here, &["check", BUILT_IN]);
+    assert!(!out(&calm).contains("Sea: "), "{}", out(&calm));
+    let alone = sea(r#"{"kind": "regular", "amplitude": 2, "period": 8}"#);
+    // L = g T²/2π = 99.89 m in deep water.
+    assert!(alone.contains("Sea: H 4.000 m, T 8.00 s; a wave of T is 99.9 m long, steepness H/L 0.0400"), "{alone}");
+    let mild = sea(r#"{"kind": "pierson-moskowitz", "hs": 3, "tp": 9, "cut_off": 0.3}"#);
+    assert!(mild.contains("Sea: Hs 2.9") && mild.contains("(cut-off)") && !mild.contains("breaks"), "{mild}");
+    let steep = sea(r#"{"kind": "jonswap", "hs": 9, "tp": 8}"#);
+    assert!(steep.contains("warning: a sea of this period breaks beyond a steepness of 0.0"), "{steep}");
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_error() {
     let here = directory("pipe");
     for arguments in [&["schema"][..], &["statics", BUILT_IN], &["statics", BUILT_IN, "--json"]] {

@@ -216,6 +216,76 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     ),
     (
         r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "jonswap", "hs": 4.0, "tp": 10.0, "cut_off": 0.09},"#,
+        &["environment.waves.cut_off: 0.09 Hz is not allowed", "above the peak", "0.1000 Hz"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "pierson-moskowitz", "hs": -4.0, "tp": 9.0},"#,
+        &["environment.waves.hs: -4 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "pierson-moskowitz", "hs": 4.0, "tp": 9.0, "cut_off": -1},"#,
+        &["environment.waves.cut_off: -1 Hz is not allowed", "0.1111 Hz"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "pierson-moskowitz", "hs": 130.0, "tp": 9.0},"#,
+        &["environment.waves.hs: 130 m is not allowed", "bare the seabed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "ochi-hubble", "parts": [{"hs": 1, "tp": 15, "lambda": 3}, {"hs": 1, "tp": 7, "lambda": 0.2}]},"#,
+        &["environment.waves.parts[1].lambda: 0.2 is not allowed", "between 1 and 20"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "ochi-hubble", "parts": [{"hs": 1, "tp": 15, "lambda": 3}, {"hs": 1, "tp": 5, "lambda": 1}], "cut_off": 0.15},"#,
+        &["environment.waves.cut_off: 0.15 Hz", "0.2000 Hz"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "ochi-hubble", "parts": [{"hs": 1, "tp": 0, "lambda": 3}, {"hs": 1, "tp": 7, "lambda": 2}]},"#,
+        &["environment.waves.parts[0].tp: 0 is not allowed"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "table", "spectrum": [[0.05, 0], [0.1, 2], [0.09, 1]]},"#,
+        &["environment.waves.spectrum[2]: f = 0.09 Hz is not allowed", "frequencies must rise", "f = 0.1 Hz"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "table", "spectrum": [[0.05, 0], [0.1, -2], [0.2, 1]]},"#,
+        &["environment.waves.spectrum[1]: S = -2 m²/Hz is not allowed", "0 or greater"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "table", "spectrum": [[0, 1], [0.1, 2]]},"#,
+        &["environment.waves.spectrum[0]: S = 1", "at f = 0 it must be 0"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "table", "spectrum": [[-0.1, 1], [0.1, 2]]},"#,
+        &["environment.waves.spectrum[0]: f = -0.1 Hz", "0 or greater"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "table", "spectrum": [[0.1, 1]]},"#,
+        &["environment.waves.spectrum: a table of 1 rows", "at least 2 rows"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "table", "spectrum": [[0.1, 0], [0.2, 0]]},"#,
+        &["environment.waves.spectrum: a spectrum of zeros", "energy"],
+    ),
+    (
+        r#""depth": 120.0,"#,
+        r#""depth": 120.0, "waves": {"kind": "table", "spectrum": [[0.05, 0], [0.1, 2], [0.2, 0]], "cut_off": 0.1},"#,
+        &["environment.waves.cut_off: 0.1 Hz", "0.1000 Hz"],
+    ),
+    (
+        r#""depth": 120.0,"#,
         r#""depth": 120.0, "waves": {"kind": "regular", "amplitud": 2.0, "period": 10.0},"#,
         &["line 6", "environment.waves.amplitud", "did you mean `amplitude`"],
     ),
@@ -507,6 +577,15 @@ fn waves_that_would_break_are_warned_of() {
     };
     assert!(warnings(11.0).is_empty());
     assert_says(&warnings(12.0).join(""), &["environment.waves", "24 m high", "10 s", "break at 22.1"], "12 m");
+    let steep = |waves: &str| {
+        let waves = format!(r#""depth": 120.0, "waves": {waves},"#);
+        read(&edited(r#""depth": 120.0,"#, &waves), &[]).expect("a good scene").warnings.join("")
+    };
+    let full_grown = r#"{"kind": "pierson-moskowitz", "hs": 23.0, "tp": 10.0}"#;
+    assert_says(&steep(full_grown), &["environment.waves", "23 m high", "10 s", "break at 22.1"], full_grown);
+    // 0.5 · 0.1 Hz · 1000 m²/Hz = 50 m²: 28.3 m high.
+    let table = r#"{"kind": "table", "spectrum": [[0.05, 0], [0.1, 1000], [0.15, 0]]}"#;
+    assert_says(&steep(table), &["environment.waves", "28.28", "10 s", "break at 22.1"], table);
 }
 
 #[test]

@@ -159,7 +159,7 @@ fn wavy_trial(seed: u64) -> Trial {
     scene.environment.waves = Some(if random.share() < 0.5 {
         Waves::Regular { amplitude: 0.5 * height, period, direction_deg, phase_deg: random.between(0.0, 360.0), ramp }
     } else {
-        Waves::Jonswap { hs: height, tp: period, gamma: 3.3, seed, components: 50, direction_deg, ramp }
+        Waves::Jonswap { hs: height, tp: period, gamma: 3.3, seed, components: 50, direction_deg, cut_off: None, ramp }
     });
     scene.run.duration = 6.0;
     trial_of("random, in waves", seed, scene)

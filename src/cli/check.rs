@@ -6,7 +6,9 @@ use crate::cli::stop::Stop;
 use crate::report::schedule::Schedule;
 use crate::report::units::{count, sim_time, wall_time};
 use crate::scene::read::Loaded;
-use crate::scene::types::{Motion, Scene};
+use crate::scene::types::{Environment, Motion, Scene};
+use crate::sea::drawing;
+use crate::sea::figures::Figures;
 use crate::solve::motion::Ends;
 use crate::solve::partition::{self, Together};
 use crate::solve::simulation::{Decision, Simulation};
@@ -33,6 +35,7 @@ pub fn check(arguments: &SceneArguments) -> Result<(), Stop> {
     };
     let lines: Vec<Simulation> = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, _>>()?;
     let mut text = header(&loaded);
+    text += &sea(&loaded.scene);
     text += &coupling(&loaded.scene, &parts);
     for (line, simulation) in loaded.scene.lines.iter().zip(&lines) {
         let _ = writeln!(text, "\nLine \"{}\": {} m", on_terminal(&line.name), line.length());
@@ -55,6 +58,28 @@ fn header(loaded: &Loaded) -> String {
     };
     let title = if scene.title.is_empty() { String::new() } else { format!("{}\n", on_terminal(&scene.title)) };
     format!("{title}{}: a good scene; {}, {motion}\n", on_terminal(&loaded.file), count(scene.lines.len(), "line"))
+}
+
+/// What the sea is, computed back from its components; nothing where it is calm.
+fn sea(scene: &Scene) -> String {
+    let Environment { gravity, depth, waves, .. } = &scene.environment;
+    let Some(waves) = waves.as_ref().map(|waves| drawing::drawn(waves).waves) else { return String::new() };
+    let Some(sea) = Figures::of(&waves, *gravity, *depth) else { return String::new() };
+    let Figures { height, period, band: [low, high], length, steepness, steepest } = sea;
+    let (symbol, of) = if waves.len() == 1 { (["H", "T"], "a wave") } else { (["Hs", "Tp"], "a sea") };
+    let [h, t] = symbol;
+    let band = if waves.len() == 1 { String::new() } else { format!(", components from {low:.4} to {high:.4} Hz (cut-off)") };
+    let mut text = format!(
+        "\nSea: {h} {height:.3} m, {t} {period:.2} s{band}; a wave of {t} is {length:.1} m long, steepness {h}/L {steepness:.4}\n"
+    );
+    if sea.breaks() {
+        let _ = writeln!(
+            text,
+            "warning: {of} of this period breaks beyond a steepness of {steepest:.4}, that is {:.2} m; linear theory does not hold for it",
+            steepest * length
+        );
+    }
+    text
 }
 
 /// What is solved together, and why; nothing where all lines hang on coordinates.

@@ -20,11 +20,11 @@ use crate::algebra::real::Across;
 use crate::algebra::real::{MOST_LANES, Real, padded};
 use crate::algebra::shape::Shape;
 use crate::algebra::triple::Triple;
-use crate::scene::types::{self, Environment};
+use crate::scene::types::Environment;
 use crate::sea::clock::Clock;
+use crate::sea::drawing::{self, Drawn};
 use crate::sea::near::{Member, Near, Water};
 use crate::sea::series::{DECAYED, cos_sin, decay};
-use crate::sea::spectrum::Jonswap;
 use crate::sea::wave::{Wave, wave_number};
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
@@ -92,28 +92,10 @@ const SHALLOWEST: f64 = 0.05;
 impl Waves {
     /// The waves of an environment.
     pub fn of(environment: &Environment) -> Option<Waves> {
-        let longest = |waves: &[Wave]| waves.iter().map(|wave| TAU / wave.omega).fold(0.0, f64::max);
-        let wave = |amplitude: f64, period: f64, direction_deg: f64, phase_deg: f64| Wave {
-            amplitude,
-            omega: TAU / period,
-            direction: direction_deg.to_radians(),
-            phase: phase_deg.to_radians(),
-        };
-        let (waves, ramp, random) = match environment.waves.as_ref()? {
-            types::Waves::Regular { amplitude, period, direction_deg, phase_deg, ramp } => {
-                (vec![wave(*amplitude, *period, *direction_deg, *phase_deg)], ramp.unwrap_or(*period), false)
-            }
-            types::Waves::Jonswap { hs, tp, gamma, seed, components, direction_deg, ramp } => {
-                let sea = Jonswap { hs: *hs, tp: *tp, gamma: *gamma };
-                (sea.waves(*seed, *components, direction_deg.to_radians()), ramp.unwrap_or(*tp), true)
-            }
-            types::Waves::Components { components, ramp } => {
-                let waves: Vec<Wave> =
-                    components.iter().map(|c| wave(c.amplitude, c.period, c.direction_deg, c.phase_deg)).collect();
-                let ramp = ramp.unwrap_or(longest(&waves));
-                (waves, ramp, false)
-            }
-        };
+        let Drawn { waves, ramp, random } = drawing::drawn(environment.waves.as_ref()?);
+        if waves.is_empty() {
+            return None;
+        }
         let mut sea = Waves::new(&waves, environment.gravity, environment.depth, ramp);
         if random {
             sea.crest = sea.crest.min(RARE * deviation(&waves));
@@ -390,6 +372,7 @@ impl WithSimd for Elevation<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sea::spectrum::Jonswap;
 
     const G: f64 = 9.80665;
 
