@@ -48,6 +48,7 @@ pub mod scene {
     pub mod cable;
     pub mod check;
     pub mod load_file;
+    pub mod moordyn;
     pub mod motion_file;
     pub mod placing;
     pub mod pose_file;

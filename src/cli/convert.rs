@@ -1,4 +1,4 @@
-//! `moorline convert`: JSON scene to CABLE file and back, with a word on what the other format cannot hold.
+//! `moorline convert`: JSON scene to CABLE file and back, MoorDyn file to JSON scene, with a word on what the other format cannot hold.
 
 use crate::cli::arguments::ConvertArguments;
 use crate::cli::console::{self, on_terminal};
@@ -18,9 +18,10 @@ use std::path::{Path, PathBuf};
 pub fn convert(arguments: &ConvertArguments) -> Result<(), Stop> {
     let loaded = read::load(&arguments.input, &[])?;
     loaded.warnings.iter().for_each(|warning| console::warning(warning));
-    let losses = match loaded.deck.clone() {
-        Some(deck) => to_scene(loaded, &deck, &arguments.output)?,
-        None => to_deck(&loaded, &arguments.output)?,
+    let losses = match (loaded.deck.clone(), &loaded.moordyn) {
+        (Some(deck), _) => to_scene(loaded, &deck, &arguments.output)?,
+        (None, Some(_)) => of_moordyn(&loaded, &arguments.output)?,
+        (None, None) => to_deck(&loaded, &arguments.output)?,
     };
     let mut text = format!("{}\n", on_terminal(&arguments.output.display().to_string()));
     for loss in losses {
@@ -53,6 +54,15 @@ fn to_scene(loaded: Loaded, deck: &Deck, output: &Path) -> Result<Vec<String>, E
     // Plain data of numbers and strings: there is nothing in it that JSON cannot hold.
     tables::write(output, &(serde_json::to_string_pretty(&scene).unwrap_or_default() + "\n"))?;
     Ok(losses)
+}
+
+/// Writes the scene of a MoorDyn file; what a scene has no need of.
+fn of_moordyn(loaded: &Loaded, output: &Path) -> Result<Vec<String>, Error> {
+    tables::write(output, &(serde_json::to_string_pretty(&loaded.scene).unwrap_or_default() + "\n"))?;
+    Ok(vec![
+        String::from("NumSegs: the program chooses elements itself; `elements` of a section gives their number"),
+        String::from("kinds of lines, points and rods that no line needs are left out"),
+    ])
 }
 
 /// The text of a motion file.
