@@ -154,8 +154,8 @@ fn grid(numbers: &Numbers) -> Result<Vec<([f64; 2], f64)>, Error> {
 /// The plane z = c + a x + b y nearest to places: c, a, b; none where they do not span one.
 fn through(places: &[([f64; 2], f64)]) -> Option<[f64; 3]> {
     let count = places.len() as f64;
-    let mean = |of: &dyn Fn(&([f64; 2], f64)) -> f64| places.iter().map(of).sum::<f64>() / count;
-    let (x, y, z) = (mean(&|p| p.0[0]), mean(&|p| p.0[1]), mean(&|p| p.1));
+    let sum = places.iter().fold([0.0; 3], |sum, ([x, y], z)| [sum[0] + x, sum[1] + y, sum[2] + z]);
+    let [x, y, z] = sum.map(|sum| sum / count);
     let (mut xx, mut xy, mut yy, mut xz, mut yz) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for ([px, py], pz) in places {
         let (dx, dy, dz) = (px - x, py - y, pz - z);
