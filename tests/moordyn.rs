@@ -324,3 +324,91 @@ fn every_command_takes_a_deck() {
         assert_eq!(json["converged"], json!(true));
     }
 }
+
+/// What `convert` writes is the scene again: statics of examples of every kind are the same, to the difference of their meshes and of a bed
+/// that is one for all lines.
+#[test]
+fn a_scene_and_its_deck_have_the_same_tensions() {
+    let place = program::directory("written");
+    let examples = [
+        ("calm-buoy", 1e-4),
+        ("calm-line", 1e-4),
+        ("clump-weight", 1e-4),
+        ("crowfoot", 1e-4),
+        ("lazy-wave", 1e-4),
+        ("lindahl-sjoberg", 1e-4),
+        ("riser-with-bending", 1e-4),
+        ("semi-submersible", 1e-4),
+        ("spread-moored-ship", 1e-4),
+        ("taut-polyester", 1e-4),
+        ("two-lines-in-current", 1e-4),
+        ("wave-energy-floats", 1e-4),
+    ];
+    for (name, tolerance) in examples {
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(format!("{name}.json"));
+        let own = load(&scene, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let deck = place.join(format!("{name}.txt"));
+        let output = program::moorline(&place, &["convert", &scene.display().to_string(), &deck.display().to_string()]);
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let written = load(&deck, &[]).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let (tops, found) = (settled(&own).1, settled(&written).1);
+        // Pieces of a line follow each other from its fairlead; the first of each has its tension.
+        let whole = own.scene.lines.len() == written.scene.lines.len();
+        let lines = &written.scene.lines;
+        let goes_on = |index: usize| {
+            index > 0 && lines[index].fairlead_on.is_some() && lines[index - 1].anchor_on == lines[index].fairlead_on
+        };
+        let mut first = found.iter().enumerate().filter(|(index, _)| whole || !goes_on(*index));
+        for line in &tops {
+            let (_, other) = first.next().unwrap_or_else(|| panic!("{name}: a line is lost"));
+            assert_close(name, other.tension, line.tension, tolerance);
+        }
+    }
+}
+
+/// A deck of the buoy, with its table, current and products of inertia apart, means the same scene as the deck that it came from; a slope goes
+/// into a grid and back.
+#[test]
+fn a_deck_is_written_as_it_is_read() {
+    let place = program::directory("again");
+    for name in ["buoy.txt", "rope.dat", "current_profile.txt"] {
+        std::fs::copy(directory().join(name), place.join(name)).expect("copied");
+    }
+    let convert = |from: &str, to: &str| {
+        let output = program::moorline(&place, &["convert", from, to]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let told = convert("buoy.txt", "again.txt");
+    assert!(told.contains("products of inertia") && told.contains("again.hawser.dat is beside it"), "{told}");
+    let (one, other) = (load(&place.join("buoy.txt"), &[]), load(&place.join("again.txt"), &[]));
+    let scene = |loaded: Result<Loaded, moorline::error::Error>| {
+        let mut scene = loaded.unwrap_or_else(|error| panic!("{error}")).scene;
+        scene.line_types.values_mut().for_each(|of| of.damping = (of.damping * 1e12).round());
+        scene.environment.seabed.damping = scene.environment.seabed.damping.round();
+        for body in &mut scene.bodies {
+            body.inertia =
+                body.inertia.as_ref().map(|inertia| Inertia::Principal(inertia.matrix().diagonal().map(|x| x.round()).into()));
+            body.quadratic_damping = body.quadratic_damping.map(|drag| drag.map(f64::round));
+        }
+        scene
+    };
+    assert_eq!(scene(one), scene(other));
+
+    let sloping = edited("90      WtrDpth", "90      WtrDpth").replace("-90.0", "-70.0");
+    let mut value = without_title(&parse(&sloping, "deck.txt", &place, &[]).unwrap_or_else(|error| panic!("{error}")));
+    value["environment"]["seabed"]["slope_deg"] = json!([1.0, -0.5]);
+    std::fs::write(place.join("slope.json"), value.to_string()).expect("written");
+    convert("slope.json", "slope.txt");
+    let bed = load(&place.join("slope.txt"), &[]).unwrap_or_else(|error| panic!("{error}")).scene.environment;
+    assert_close("depth", bed.depth, 90.0, 1e-9);
+    assert_close("slope along x", bed.seabed.slope_deg[0], 1.0, 1e-9);
+    assert_close("slope along y", bed.seabed.slope_deg[1], -0.5, 1e-9);
+
+    // What cannot be held is refused by its place.
+    let output =
+        program::moorline(&place, &["convert", concat!(env!("CARGO_MANIFEST_DIR"), "/examples/moored-buoy.json"), "no.txt"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(told.contains("lines[0].constraints") && told.contains("a MoorDyn file cannot hold this"), "{told}");
+}

@@ -37,7 +37,7 @@ pub enum Command {
     Schema,
     /// Write an FMU: a co-simulation unit for FMI 2.0 masters
     Pack(PackArguments),
-    /// JSON scene to CABLE file and back, MoorDyn file to JSON scene; says what the other format cannot hold
+    /// JSON scene to CABLE or MoorDyn file and back; says what the other format cannot hold
     Convert(ConvertArguments),
 }
 
@@ -142,7 +142,7 @@ pub struct PackArguments {
 pub struct ConvertArguments {
     /// JSON scene, CABLE file or MoorDyn file
     pub input: PathBuf,
-    /// CABLE file or JSON scene
+    /// JSON scene, or of a JSON scene a CABLE file; a name that ends in .txt is a MoorDyn file
     pub output: PathBuf,
 }
 

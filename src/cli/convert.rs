@@ -1,4 +1,4 @@
-//! `moorline convert`: JSON scene to CABLE file and back, MoorDyn file to JSON scene, with a word on what the other format cannot hold.
+//! `moorline convert`: JSON scene to CABLE or MoorDyn file and back, with a word on what the other format cannot hold.
 
 use crate::cli::arguments::ConvertArguments;
 use crate::cli::console::{self, on_terminal};
@@ -6,6 +6,7 @@ use crate::cli::stop::Stop;
 use crate::error::Error;
 use crate::report::tables;
 use crate::scene::cable::{Deck, Job, MotionKind, forced_motion, from_scene, turned_back, writing};
+use crate::scene::moordyn;
 use crate::scene::motion_file::Table;
 use crate::scene::read::{self, Loaded};
 use crate::scene::types::Motion;
@@ -18,8 +19,10 @@ use std::path::{Path, PathBuf};
 pub fn convert(arguments: &ConvertArguments) -> Result<(), Stop> {
     let loaded = read::load(&arguments.input, &[])?;
     loaded.warnings.iter().for_each(|warning| console::warning(warning));
+    let text = arguments.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("txt"));
     let losses = match (loaded.deck.clone(), &loaded.moordyn) {
         (Some(deck), _) => to_scene(loaded, &deck, &arguments.output)?,
+        (None, _) if text => to_moordyn(&loaded, &arguments.output)?,
         (None, Some(_)) => of_moordyn(&loaded, &arguments.output)?,
         (None, None) => to_deck(&loaded, &arguments.output)?,
     };
@@ -63,6 +66,21 @@ fn of_moordyn(loaded: &Loaded, output: &Path) -> Result<Vec<String>, Error> {
         String::from("NumSegs: the program chooses elements itself; `elements` of a section gives their number"),
         String::from("kinds of lines, points and rods that no line needs are left out"),
     ])
+}
+
+/// Writes the MoorDyn file of a scene and the files beside it; what such a file cannot hold.
+fn to_moordyn(loaded: &Loaded, output: &Path) -> Result<Vec<String>, Error> {
+    let conversion = moordyn::from_scene::deck(&loaded.scene, &loaded.file)?;
+    let stem = output.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().replace(char::is_whitespace, "_"));
+    let texts = moordyn::writing::texts(&conversion, &stem);
+    tables::write(output, &texts.deck)?;
+    let mut losses = conversion.losses;
+    for (name, text) in &texts.beside {
+        let path = output.parent().map_or_else(PathBuf::new, Path::to_path_buf).join(name);
+        tables::write(&path, text)?;
+        losses.push(format!("{} is beside it", path.display()));
+    }
+    Ok(losses)
 }
 
 /// The text of a motion file.

@@ -4,11 +4,13 @@
 //! a scene counts from the fairlead.
 
 pub mod beside;
+pub mod from_scene;
 pub mod options;
 pub mod reading;
 pub mod sections;
 pub mod to_scene;
 pub mod words;
+pub mod writing;
 
 use crate::scene::types::Triple;
 use options::Options;
