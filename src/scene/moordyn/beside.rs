@@ -135,17 +135,19 @@ fn grid(numbers: &Numbers) -> Result<Vec<([f64; 2], f64)>, Error> {
     let cut = Numbers { file: numbers.file.clone(), text: after };
     let rows = cut.rows(1, "x, y, depth")?;
     let values: Vec<&[f64]> = rows.iter().map(|(_, values)| values.as_slice()).collect();
-    let depth = |z: f64| -z.abs();
     match (old, values.as_slice()) {
         (Some(columns), [xs, rest @ ..]) => {
             let mut places = Vec::new();
             for row in rest.iter().filter(|row| row.len() > columns) {
-                places.extend((0..columns.min(xs.len())).map(|k| ([xs[k], row[0]], depth(row[k + 1]))));
+                places.extend((0..columns.min(xs.len())).map(|k| ([xs[k], row[0]], -row[k + 1])));
             }
             Ok(places)
         }
         (None, [_, _, _, rest @ ..]) => {
-            Ok(rest.iter().filter(|row| row.len() >= 3).map(|row| ([row[0], row[1]], depth(row[2]))).collect())
+            let rows = rest.iter().filter(|row| row.len() >= 3);
+            // Heights of the bed, which lie below the water; where none does, they are depths.
+            let sign = if rows.clone().all(|row| row[2] >= 0.0) { -1.0 } else { 1.0 };
+            Ok(rows.map(|row| ([row[0], row[1]], sign * row[2])).collect())
         }
         _ => Err(numbers.fault("this is no grid of depths")),
     }

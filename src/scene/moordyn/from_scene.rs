@@ -90,11 +90,10 @@ impl Writer<'_> {
     }
 
     fn refuse(&self, file: &str) -> Result<(), Error> {
-        let lines = self.scene.lines.iter().enumerate();
-        for (index, _) in lines.filter(|(_, line)| !line.constraints.is_empty()) {
-            return Err(cannot(file, format!("lines[{index}].constraints"), "springs, dampers and locks along the line"));
+        match self.scene.lines.iter().position(|line| !line.constraints.is_empty()) {
+            Some(index) => Err(cannot(file, format!("lines[{index}].constraints"), "springs, dampers and locks along the line")),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     fn environment(&mut self) {
