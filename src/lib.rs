@@ -188,6 +188,7 @@ pub mod fmi {
 /// What a run leaves behind: tables and a page to look at.
 pub mod report {
     pub mod cable_files;
+    pub mod moordyn_out;
     pub mod offsets;
     pub mod page;
     pub mod page_data;

@@ -270,6 +270,7 @@ fn what_is_left_out_is_told() {
     told("90      WtrDpth", "80      WtrDpth", "line 11: the depth is 90 m, that of point 1");
     told("90      WtrDpth", "90      WtrDpth\n1 WaveKin", "WaveKin 1 takes waves from a calling program");
     told("90      WtrDpth", "90      WtrDpth\n7 colour", "line 31: colour is no option that is known");
+    told("ANCHTEN3", "ANCHTEN3 ROD1SUB", "OUTPUTS: ROD1SUB: columns that are not written");
     told("7     Free ", "8     Free 0 0 -10 1 0 0 0\n7     Free ", "no line leads to point8");
     told("Cd     Ca     CdAx    CaAx", "Can   Cat   Cdn   Cdt", "version 2 reads Cd, Ca, CdAx, CaAx by their place");
     told("420.0   0.0     -90.0   0 ", "420.0   0.0     -90.0   5 ", "line 11: mass and volume of a point that is held");
@@ -315,6 +316,22 @@ fn every_command_takes_a_deck() {
         let rows = program::read(&place.join("out/timeseries.csv"));
         assert!(rows.lines().next().is_some_and(|names| names.contains("line1.tension")), "{rows}");
         assert!(rows.lines().last().is_some_and(|row| row.starts_with("1,") || row.starts_with("1.0")), "{rows}");
+        if name == "spread-v2.txt" {
+            // The channels of the deck, by its names, are the columns of timeseries.csv.
+            let out = program::read(&place.join("out/spread-v2.out"));
+            let cells = |text: &str, part: char| text.split(part).map(str::to_owned).collect::<Vec<_>>();
+            let lines: Vec<&str> = out.lines().collect();
+            assert_eq!(cells(lines[0], '\t'), ["Time", "FAIRTEN1", "FAIRTEN2", "ANCHTEN3"]);
+            assert_eq!(cells(lines[1], '\t'), ["(s)", "(N)", "(N)", "(N)"]);
+            assert_eq!(lines.len() - 2, rows.lines().count() - 1);
+            let names = cells(rows.lines().next().unwrap_or_default(), ',');
+            for (column, name) in [(1, "line1.tension"), (2, "line2.tension"), (3, "line3.anchor_tension")] {
+                let at = names.iter().position(|own| own == name).expect("a column");
+                let own: f64 = cells(rows.lines().last().unwrap_or_default(), ',')[at].parse().expect("a number");
+                let found: f64 = cells(lines[lines.len() - 1], '\t')[column].parse().expect("a number");
+                assert_close(name, found, own, 1e-7);
+            }
+        }
         // The JSON scene says what the deck says.
         done(&["convert", name, "scene.json"]);
         let (own, converted) = (load(&place.join(name), &[]), load(&place.join("scene.json"), &[]));

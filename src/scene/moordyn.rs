@@ -6,6 +6,7 @@
 pub mod beside;
 pub mod from_scene;
 pub mod options;
+pub mod outputs;
 pub mod reading;
 pub mod sections;
 pub mod to_scene;
@@ -14,6 +15,7 @@ pub mod writing;
 
 use crate::scene::types::Triple;
 use options::Options;
+use outputs::Channel;
 use words::{Attachment, LineEnd};
 
 /// A MoorDyn file. Every row keeps its line in the text, from 1.
@@ -35,6 +37,8 @@ pub struct Deck {
     pub lines: Vec<DeckLine>,
     /// OPTIONS.
     pub options: Options,
+    /// OUTPUTS.
+    pub outputs: Vec<Channel>,
 }
 
 /// A kind of line.

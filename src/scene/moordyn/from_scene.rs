@@ -73,6 +73,7 @@ fn empty(scene: &Scene) -> Deck {
         points: Vec::new(),
         lines: Vec::new(),
         options: Options::default(),
+        outputs: Vec::new(),
     }
 }
 

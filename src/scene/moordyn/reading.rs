@@ -4,6 +4,7 @@
 use crate::error::{Error, MoorDynProblem};
 use crate::scene::moordyn::beside;
 use crate::scene::moordyn::options;
+use crate::scene::moordyn::outputs;
 use crate::scene::moordyn::sections::{self, Kind, Row, Section, Sections, number};
 use crate::scene::moordyn::words::{self, Attachment, LineEnd};
 use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, RodKind, Stiffness};
@@ -48,7 +49,9 @@ pub fn read(text: &str, file: &str, directory: &Path) -> Result<Reading, Error> 
     }
     let options = options::read(reader.section(Kind::Options), file)?;
     warnings.extend(options.warnings.iter().cloned());
-    let deck = Deck { title: sections.title.clone(), line_types, rod_types, bodies, rods, points, lines, options };
+    let (outputs, unknown) = outputs::read(reader.section(Kind::Outputs));
+    warnings.extend(unknown);
+    let deck = Deck { title: sections.title.clone(), line_types, rod_types, bodies, rods, points, lines, options, outputs };
     Ok(Reading { deck, warnings })
 }
 
