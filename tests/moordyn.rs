@@ -5,10 +5,9 @@ mod support;
 
 use moorline::scene::bodies::{Inertia, Mount};
 use moorline::scene::read::{Loaded, load, parse};
-use moorline::solve::mooring::Mooring;
-use moorline::solve::simulation::Outputs;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+use support::mooring::settled;
 use support::{GRAVITY, assert_close, program};
 
 const SECOND: &str = include_str!("data/moordyn/spread-v2.txt");
@@ -35,19 +34,6 @@ fn message(text: &str) -> String {
             error.to_string()
         }
     }
-}
-
-/// Outputs of all lines in equilibrium.
-fn settled(loaded: &Loaded) -> (Mooring, Vec<Outputs>) {
-    let mut mooring = Mooring::new(loaded).unwrap_or_else(|error| panic!("{error}"));
-    let mut outputs = vec![None; loaded.scene.lines.len()];
-    for part in &mut mooring.parts {
-        part.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
-        for (local, index) in part.lines().to_vec().into_iter().enumerate() {
-            outputs[index] = Some(part.outputs(local));
-        }
-    }
-    (mooring, outputs.into_iter().flatten().collect())
 }
 
 /// The second version's barge with one passage replaced, which must stand there once.

@@ -9,7 +9,7 @@ use crate::scene::cable::{Deck, Job, MotionKind, forced_motion, from_scene, turn
 use crate::scene::moordyn;
 use crate::scene::motion_file::Table;
 use crate::scene::read::{self, Loaded};
-use crate::scene::types::Motion;
+use crate::scene::types::{Motion, Scene};
 use crate::solve::motion::Path as Fairlead;
 use crate::solve::simulation::Simulation;
 use std::fmt::Write;
@@ -54,14 +54,18 @@ fn to_scene(loaded: Loaded, deck: &Deck, output: &Path) -> Result<Vec<String>, E
     if deck.job == Job::Statics {
         losses.push("TBGN, TEND: a scene of statics has run.duration 0".to_string());
     }
-    // Plain data of numbers and strings: there is nothing in it that JSON cannot hold.
-    tables::write(output, &(serde_json::to_string_pretty(&scene).unwrap_or_default() + "\n"))?;
+    write_scene(&scene, output)?;
     Ok(losses)
+}
+
+fn write_scene(scene: &Scene, output: &Path) -> Result<(), Error> {
+    // Plain data of numbers and strings: there is nothing in it that JSON cannot hold.
+    tables::write(output, &(serde_json::to_string_pretty(scene).unwrap_or_default() + "\n"))
 }
 
 /// Writes the scene of a MoorDyn file; what a scene has no need of.
 fn of_moordyn(loaded: &Loaded, output: &Path) -> Result<Vec<String>, Error> {
-    tables::write(output, &(serde_json::to_string_pretty(&loaded.scene).unwrap_or_default() + "\n"))?;
+    write_scene(&loaded.scene, output)?;
     Ok(vec![
         String::from("NumSegs: the program chooses elements itself; `elements` of a section gives their number"),
         String::from("kinds of lines, points and rods that no line needs are left out"),

@@ -1,9 +1,9 @@
 //! The output file that a MoorDyn file asks for: its channels over time, a line of names, a line of units, a row for every output time.
 
 use crate::report::record::Record;
-use crate::scene::moordyn::Deck;
-use crate::scene::moordyn::outputs::{LineSide, Quantity};
-use crate::scene::moordyn::words::LineEnd;
+use crate::scene::moordyn::outputs::Quantity;
+use crate::scene::moordyn::words::{LineEnd, Side};
+use crate::scene::moordyn::{Deck, DeckBody, DeckLine};
 use std::fmt::Write;
 
 /// The text of the file; none: the deck asks for nothing.
@@ -31,23 +31,23 @@ pub fn text(record: &Record, deck: &Deck) -> Option<String> {
 
 /// The values of a channel at the output times; none: nothing of the run has its number.
 fn column(record: &Record, deck: &Deck, quantity: Quantity) -> Option<Vec<f64>> {
-    let line = |id: u32| record.lines.iter().find(|line| line.name == format!("line{id}"));
-    let body = |id: u32| record.bodies.iter().find(|body| body.name == format!("body{id}"));
+    let line = |id: u32| record.lines.iter().find(|line| line.name == DeckLine::name_of(id));
+    let body = |id: u32| record.bodies.iter().find(|body| body.name == DeckBody::name_of(id));
     match quantity {
-        Quantity::Tension(id, LineSide::B) => Some(line(id)?.rows.iter().map(|row| row.tension).collect()),
-        Quantity::Tension(id, LineSide::A) => Some(line(id)?.rows.iter().map(|row| row.anchor_tension).collect()),
+        Quantity::Tension(id, Side::B) => Some(line(id)?.rows.iter().map(|row| row.tension).collect()),
+        Quantity::Tension(id, Side::A) => Some(line(id)?.rows.iter().map(|row| row.anchor_tension).collect()),
         Quantity::EndOfLine(id, side, axis) => {
             let place = |row: &crate::solve::simulation::Outputs| match side {
-                LineSide::A => row.anchor[axis],
-                LineSide::B => row.fairlead[axis],
+                Side::A => row.anchor[axis],
+                Side::B => row.fairlead[axis],
             };
             Some(line(id)?.rows.iter().map(place).collect())
         }
         Quantity::Point(id, axis) => {
             // A point is where the lines end that lead to it.
-            let end = |line: &crate::scene::moordyn::DeckLine| line.ends.iter().position(|end| *end == LineEnd::Point(id));
+            let end = |line: &DeckLine| line.ends.iter().position(|end| *end == LineEnd::Point(id));
             let (of, end) = deck.lines.iter().find_map(|line| Some((line.id, end(line)?)))?;
-            column(record, deck, Quantity::EndOfLine(of, if end == 0 { LineSide::A } else { LineSide::B }, axis))
+            column(record, deck, Quantity::EndOfLine(of, if end == 0 { Side::A } else { Side::B }, axis))
         }
         Quantity::Body(id, axis) => Some(body(id)?.rows.iter().map(|row| row.pose.position[axis]).collect()),
         Quantity::Turn(id, axis) => Some(body(id)?.rows.iter().map(|row| row.pose.angles[axis].to_degrees()).collect()),

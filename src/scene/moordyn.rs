@@ -184,7 +184,33 @@ pub struct DeckLine {
     pub segments: usize,
 }
 
+impl DeckLine {
+    /// Name of a line in the scene.
+    pub fn name_of(id: u32) -> String {
+        format!("line{id}")
+    }
+}
+
+impl DeckBody {
+    /// Name of a body in the scene.
+    pub fn name_of(id: u32) -> String {
+        format!("body{id}")
+    }
+}
+
+impl DeckPoint {
+    /// Name of a free point in the scene.
+    pub fn name_of(id: u32) -> String {
+        format!("point{id}")
+    }
+}
+
 impl DeckRod {
+    /// Name in the scene of the body that a rod is.
+    pub fn name_of(id: u32) -> String {
+        format!("rod{id}")
+    }
+
     /// Whether it has no length.
     pub fn is_point(&self) -> bool {
         self.segments == 0 || self.a == self.b

@@ -73,10 +73,11 @@ impl Loaded {
 /// Reads and checks a scene file, changed by `--set` entries (`place=value`).
 pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Error> {
     let file = path.display().to_string();
-    let bytes = read_bytes(path, LARGEST, "a scene file")?;
-    // Headings of old MoorDyn files have signs of other encodings.
-    let lenient = String::from_utf8_lossy(&bytes);
-    let text = if moordyn::sections::is_deck(&lenient) { decode_leniently(bytes) } else { decode(bytes, &file)? };
+    let text = String::from_utf8(read_bytes(path, LARGEST, "a scene file")?).or_else(|error| {
+        // Headings of old MoorDyn files have signs of other encodings.
+        let lenient = decode_leniently(error.as_bytes().to_vec());
+        if moordyn::sections::is_deck(&lenient) { Ok(lenient) } else { decode(error.into_bytes(), &file) }
+    })?;
     parse(&text, &file, path.parent().unwrap_or(Path::new("")), sets)
 }
 

@@ -8,9 +8,9 @@
 use crate::error::{Error, MoorDynProblem};
 use crate::scene::bodies::{Body, BodyMotion, Inertia, Mount, PointMotion, Stiffness as Clamping};
 use crate::scene::moordyn::options::{Depth, Options};
-use crate::scene::moordyn::words::{Attachment, LineEnd, RodEnd};
+use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
 use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, RodKind, Stiffness};
-use crate::scene::types::{Environment, Line, LineType, Motion, Scene, Stretch, Surface, Triple};
+use crate::scene::types::{Environment, Line, Motion, Scene, Stretch, Surface, Triple};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -34,13 +34,14 @@ const SEGMENT: (f64, usize, usize) = (5.0, 10, 100);
 
 /// The MoorDyn file of a scene whose ends are placed; `file` is for messages.
 pub fn deck(scene: &Scene, file: &str) -> Result<Conversion, Error> {
-    let mut writer = Writer { scene, deck: empty(scene), losses: Vec::new() };
+    let mut writer = Writer { scene, deck: empty(scene), first_point: 1, losses: Vec::new() };
     writer.refuse(file)?;
     writer.environment();
     writer.line_types();
     for index in 0..scene.bodies.len() {
         writer.body(index, file)?;
     }
+    writer.first_point += writer.deck.points.len() as u32;
     for index in 0..scene.points.len() {
         writer.point(index);
     }
@@ -80,6 +81,8 @@ fn empty(scene: &Scene) -> Deck {
 struct Writer<'a> {
     scene: &'a Scene,
     deck: Deck,
+    /// Number of the point that is the first of the scene's: those that bodies need come before.
+    first_point: u32,
     losses: Vec<String>,
 }
 
@@ -121,12 +124,13 @@ impl Writer<'_> {
         for (name, of) in &self.scene.line_types {
             let buoyancy = of.buoyancy_per_length(rho, gravity);
             let displaced = if rho > 0.0 { (4.0 * buoyancy.max(0.0) / (PI * rho * gravity)).sqrt() } else { of.diameter };
-            let diameter = displaced.max(THINNEST);
             self.lose(displaced < THINNEST, || {
                 format!("line_types.{name}: a line without buoyancy gets a diameter of {THINNEST} m")
             });
-            let ratio = if (diameter - of.diameter).abs() <= 1.0e-12 * diameter { 1.0 } else { of.diameter / diameter };
-            let diameter = diameter_of(ratio, of, diameter);
+            // The scene's own where it is that of the displacement.
+            let thick = displaced.max(THINNEST);
+            let own = (thick - of.diameter).abs() <= 1.0e-12 * thick;
+            let (diameter, ratio) = if own { (of.diameter, 1.0) } else { (thick, of.diameter / thick) };
             let fluid = of.inner_fluid.as_ref().map_or(0.0, |fluid| fluid.density * fluid.area);
             let weight = of.weight_in_water(rho, gravity);
             let bed = of.seabed_stiffness.or(environment.seabed.stiffness);
@@ -313,7 +317,7 @@ impl Writer<'_> {
             }
             Some(Mount::Point { point }) => {
                 let number = self.scene.point(point).unwrap_or_default();
-                LineEnd::Point(self.first_point() + number as u32)
+                LineEnd::Point(self.first_point + number as u32)
             }
             Some(Mount::Body { body, at, clamp }) => {
                 let id = self.scene.body(body).unwrap_or_default() as u32 + 1;
@@ -335,15 +339,9 @@ impl Writer<'_> {
                     self.deck.rod_types.len() - 1
                 });
                 let tip = std::array::from_fn(|k| at[k] + clamp.direction[k]);
-                LineEnd::Rod(self.rod(kind, Attachment::Body(id), [*at, tip], 0), RodEnd::B)
+                LineEnd::Rod(self.rod(kind, Attachment::Body(id), [*at, tip], 0), Side::B)
             }
         }
-    }
-
-    /// Number of the point that is the first of the scene's.
-    fn first_point(&self) -> u32 {
-        let of_bodies = |body: &&Body| body.is_free() && body.volume > 0.0 && body.centre_of_buoyancy != body.centre_of_mass;
-        self.scene.bodies.iter().filter(of_bodies).count() as u32 + 1
     }
 
     fn line(&mut self, index: usize, line: &Line) {
@@ -390,11 +388,6 @@ impl Writer<'_> {
         self.lose(scene.solver.hydrostatic_strain, || String::from("solver.hydrostatic_strain: it is left out"));
         self.lose(true, || String::from("solver, run.duration: not held; NumSegs is `elements`, or one segment every 5 m"));
     }
-}
-
-/// The diameter that is written: the scene's own where it is that of the displacement.
-fn diameter_of(ratio: f64, of: &LineType, displaced: f64) -> f64 {
-    if ratio == 1.0 { of.diameter } else { displaced }
 }
 
 /// A stretch of a line of one kind, without anything on it.

@@ -7,6 +7,7 @@
 //! ```
 
 use crate::scene::moordyn::sections::Section;
+use crate::scene::moordyn::words::Side;
 
 /// A column of the output.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,24 +22,15 @@ pub struct Channel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Tension [N] at end A of a line, or at end B.
-    Tension(u32, LineSide),
+    Tension(u32, Side),
     /// Position [m] along an axis of an end of a line.
-    EndOfLine(u32, LineSide, usize),
+    EndOfLine(u32, Side, usize),
     /// Position [m] of a point along an axis.
     Point(u32, usize),
     /// Position [m] of a body along an axis.
     Body(u32, usize),
     /// Roll, pitch or yaw [deg] of a body.
     Turn(u32, usize),
-}
-
-/// An end of a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LineSide {
-    /// The anchor.
-    A,
-    /// The fairlead.
-    B,
 }
 
 impl Quantity {
@@ -84,12 +76,12 @@ fn quantity(name: &str) -> Option<Quantity> {
         Some(axis)
     };
     match (object, suffix) {
-        ("FAIRTEN", "") | ("LINE" | "L", "TENB" | "TB" | "NBT" | "NBTEN") => Some(Quantity::Tension(id, LineSide::B)),
-        ("ANCHTEN", "") | ("LINE" | "L", "TENA" | "TA" | "NAT" | "NATEN") => Some(Quantity::Tension(id, LineSide::A)),
+        ("FAIRTEN", "") | ("LINE" | "L", "TENB" | "TB" | "NBT" | "NBTEN") => Some(Quantity::Tension(id, Side::B)),
+        ("ANCHTEN", "") | ("LINE" | "L", "TENA" | "TA" | "NAT" | "NATEN") => Some(Quantity::Tension(id, Side::A)),
         ("LINE" | "L", suffix) => {
             let (side, rest) = match (suffix.strip_prefix("NA"), suffix.strip_prefix("NB")) {
-                (Some(rest), _) => (LineSide::A, rest),
-                (_, Some(rest)) => (LineSide::B, rest),
+                (Some(rest), _) => (Side::A, rest),
+                (_, Some(rest)) => (Side::B, rest),
                 _ => return None,
             };
             axis(rest, 'P').map(|axis| Quantity::EndOfLine(id, side, axis))
@@ -109,11 +101,11 @@ mod tests {
     #[test]
     fn names_of_channels_are_what_the_manual_says() {
         let known = [
-            ("FairTen3", Quantity::Tension(3, LineSide::B)),
-            ("anchten12", Quantity::Tension(12, LineSide::A)),
-            ("LINE2TENA", Quantity::Tension(2, LineSide::A)),
-            ("LINE1NAPZ", Quantity::EndOfLine(1, LineSide::A, 2)),
-            ("L1NBpx", Quantity::EndOfLine(1, LineSide::B, 0)),
+            ("FairTen3", Quantity::Tension(3, Side::B)),
+            ("anchten12", Quantity::Tension(12, Side::A)),
+            ("LINE2TENA", Quantity::Tension(2, Side::A)),
+            ("LINE1NAPZ", Quantity::EndOfLine(1, Side::A, 2)),
+            ("L1NBpx", Quantity::EndOfLine(1, Side::B, 0)),
             ("Con2py", Quantity::Point(2, 1)),
             ("POINT10PZ", Quantity::Point(10, 2)),
             ("BODY1PX", Quantity::Body(1, 0)),

@@ -230,7 +230,7 @@ impl<'a> Reader<'a> {
                           dynamic one for motions in waves";
             return Err(row.cannot(self.file, "EA", reason));
         }
-        if word.parse::<f64>().is_err() && looks_like_file(word) {
+        if looks_like_file(word) {
             return Ok(Stiffness::Table(beside::curve(self.directory, word)?));
         }
         Ok(Stiffness::Linear(self.positive(row, "EA", 3)?))

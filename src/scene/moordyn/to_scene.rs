@@ -17,7 +17,7 @@ use crate::scene::bodies::{
 use crate::scene::moordyn::beside::{self, Plane};
 use crate::scene::moordyn::options::Depth;
 use crate::scene::moordyn::reading::Reading;
-use crate::scene::moordyn::words::{Attachment, LineEnd, RodEnd};
+use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
 use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, Stiffness};
 use crate::scene::types::{
     Environment, Line, LineType, Motion, NormalTangential, Run, Scene, Seabed, Section, Solver, Surface, Triple,
@@ -241,7 +241,7 @@ impl Making<'_> {
         let bends = self.deck.line_types[line.kind].ei > 0.0;
         let [(anchor, anchor_on), (fairlead, fairlead_on)] = [self.end(line, 0, bends)?, self.end(line, 1, bends)?];
         Ok(Line {
-            name: format!("line{}", line.id),
+            name: DeckLine::name_of(line.id),
             fairlead,
             fairlead_on,
             anchor,
@@ -289,7 +289,7 @@ impl Making<'_> {
             }
             Attachment::Body(id) => self.place_of_body(id, point.position, None, point.row),
             _ => {
-                let name = format!("point{}", point.id);
+                let name = DeckPoint::name_of(point.id);
                 if !self.points.iter().any(|own| own.name == name) {
                     self.spots.push((format!("points[{}]", self.points.len()), point.row));
                     self.points.push(Point {
@@ -309,18 +309,18 @@ impl Making<'_> {
     }
 
     /// An end of a rod. A line that bends leaves it along the rod.
-    fn end_at_rod(&mut self, rod: &DeckRod, end: RodEnd, bends: bool) -> Result<(Triple, Option<Mount>), Error> {
+    fn end_at_rod(&mut self, rod: &DeckRod, end: Side, bends: bool) -> Result<(Triple, Option<Mount>), Error> {
         let axis: Triple = std::array::from_fn(|k| rod.b[k] - rod.a[k]);
         let (at, direction) = match end {
-            RodEnd::A => (rod.a, axis.map(|x| 0.0 - x)),
-            RodEnd::B if rod.is_point() => (rod.a, axis),
-            RodEnd::B => (rod.b, axis),
+            Side::A => (rod.a, axis.map(|x| 0.0 - x)),
+            Side::B if rod.is_point() => (rod.a, axis),
+            Side::B => (rod.b, axis),
         };
         let clamp = (bends && axis != [0.0; 3]).then_some(Clamp { direction, stiffness: Clamping::default() });
         match rod.attachment {
             Attachment::Fixed if clamp.is_none() => Ok((at, None)),
             Attachment::Fixed => {
-                let name = format!("rod{}", rod.id);
+                let name = DeckRod::name_of(rod.id);
                 self.plain_body(&name, rod.row);
                 Ok(on_body(&name, at, clamp))
             }
@@ -335,7 +335,7 @@ impl Making<'_> {
                 "it has no direction of its own; let the lines meet at a free point, or make one line of them with a section for each",
             )),
             _ => {
-                let name = format!("rod{}", rod.id);
+                let name = DeckRod::name_of(rod.id);
                 if !self.bodies.iter().any(|body| body.name == name) {
                     self.spots.push((format!("bodies[{}]", self.bodies.len()), rod.row));
                     let cylinder = Cylinder { from: [0.0; 3], to: axis, ..self.cylinder(rod) };
@@ -354,7 +354,7 @@ impl Making<'_> {
             let known = deck.bodies.iter().map(|body| format!("Body{}", body.id)).collect();
             return Err(self.error(row, MoorDynProblem::Unknown { item: "attachment", name: format!("body {id}"), known }));
         };
-        let name = format!("body{id}");
+        let name = DeckBody::name_of(id);
         if !self.bodies.iter().any(|own| own.name == name) {
             self.spots.push((format!("bodies[{}]", self.bodies.len()), body.row));
             let own = self.body(body, &name)?;
@@ -445,9 +445,9 @@ impl Making<'_> {
     fn without_lines(&mut self) {
         let named =
             |name: String| self.bodies.iter().any(|body| body.name == name) || self.points.iter().any(|point| point.name == name);
-        let bodies = self.deck.bodies.iter().map(|body| (format!("body{}", body.id), body.row, body.attachment));
-        let points = self.deck.points.iter().map(|point| (format!("point{}", point.id), point.row, point.attachment));
-        let rods = self.deck.rods.iter().map(|rod| (format!("rod{}", rod.id), rod.row, rod.attachment));
+        let bodies = self.deck.bodies.iter().map(|body| (DeckBody::name_of(body.id), body.row, body.attachment));
+        let points = self.deck.points.iter().map(|point| (DeckPoint::name_of(point.id), point.row, point.attachment));
+        let rods = self.deck.rods.iter().map(|rod| (DeckRod::name_of(rod.id), rod.row, rod.attachment));
         let lonely: Vec<String> = bodies
             .chain(points)
             .chain(rods)

@@ -29,15 +29,15 @@ pub enum LineEnd {
     /// A point.
     Point(u32),
     /// End A of a rod, or end B.
-    Rod(u32, RodEnd),
+    Rod(u32, Side),
 }
 
-/// An end of a rod.
+/// An end of a line or rod.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RodEnd {
-    /// End A.
+pub enum Side {
+    /// End A, of a line the anchor.
     A,
-    /// End B.
+    /// End B, of a line the fairlead.
     B,
 }
 
@@ -62,8 +62,8 @@ pub fn line_end(word: &str) -> Option<LineEnd> {
     let (letters, number, rest) = parts(word)?;
     match (letters.as_str(), number?, rest.as_str()) {
         ("" | "P" | "POINT" | "C" | "CON", id, "") => Some(LineEnd::Point(id)),
-        ("R" | "ROD", id, "A") => Some(LineEnd::Rod(id, RodEnd::A)),
-        ("R" | "ROD", id, "B") => Some(LineEnd::Rod(id, RodEnd::B)),
+        ("R" | "ROD", id, "A") => Some(LineEnd::Rod(id, Side::A)),
+        ("R" | "ROD", id, "B") => Some(LineEnd::Rod(id, Side::B)),
         _ => None,
     }
 }
@@ -111,8 +111,8 @@ mod tests {
         for word in ["7", "P7", "point7", "c7", "Con7"] {
             assert_eq!(line_end(word), Some(LineEnd::Point(7)), "{word}");
         }
-        assert_eq!(line_end("R2A"), Some(LineEnd::Rod(2, RodEnd::A)));
-        assert_eq!(line_end("rod2b"), Some(LineEnd::Rod(2, RodEnd::B)));
+        assert_eq!(line_end("R2A"), Some(LineEnd::Rod(2, Side::A)));
+        assert_eq!(line_end("rod2b"), Some(LineEnd::Rod(2, Side::B)));
         for word in ["R2", "R2C", "chain", "1.5", "-1", ""] {
             assert_eq!(line_end(word), None, "{word}");
         }

@@ -2,7 +2,7 @@
 
 use crate::scene::moordyn::from_scene::Conversion;
 use crate::scene::moordyn::options::Depth;
-use crate::scene::moordyn::words::{Attachment, LineEnd, RodEnd};
+use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
 use crate::scene::moordyn::{LineKind, Stiffness};
 use crate::scene::types::Triple;
 use std::fmt::Write;
@@ -215,8 +215,8 @@ fn word(attachment: Attachment) -> String {
 fn end(of: LineEnd) -> String {
     match of {
         LineEnd::Point(id) => id.to_string(),
-        LineEnd::Rod(id, RodEnd::A) => format!("R{id}A"),
-        LineEnd::Rod(id, RodEnd::B) => format!("R{id}B"),
+        LineEnd::Rod(id, Side::A) => format!("R{id}A"),
+        LineEnd::Rod(id, Side::B) => format!("R{id}B"),
     }
 }
 
