@@ -44,6 +44,18 @@ pub enum Error {
         /// What is wrong there.
         problem: Box<DeckProblem>,
     },
+    /// A MoorDyn file cannot be read, or says what no scene can hold.
+    #[error("{file}, line {line}, `{text}`: {problem}")]
+    MoorDyn {
+        /// The file.
+        file: String,
+        /// Line of the text, from 1.
+        line: usize,
+        /// The line as written, without its comment.
+        text: String,
+        /// What is wrong there.
+        problem: Box<MoorDynProblem>,
+    },
     /// A `--set` cannot be applied, or makes the scene unreadable.
     #[error("{file}, --set {setting}{}: {problem}", at_place(.place))]
     Set {
@@ -95,6 +107,7 @@ impl Error {
             Error::File { .. }
             | Error::Json { .. }
             | Error::Deck { .. }
+            | Error::MoorDyn { .. }
             | Error::Set { .. }
             | Error::Value { .. }
             | Error::Reach(_) => 2,
@@ -242,6 +255,74 @@ pub enum DeckProblem {
     #[error("a CABLE file cannot hold this: {reason}")]
     CannotHold {
         /// Why.
+        reason: String,
+    },
+}
+
+/// What is wrong at one line of a MoorDyn file.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MoorDynProblem {
+    /// One section stands twice.
+    #[error("this section stands twice, first in line {first_line}; MoorDyn reads the first alone. Keep one of them")]
+    Twice {
+        /// Line of the first header, from 1.
+        first_line: usize,
+    },
+    /// A row of numbers where the units of the columns should be.
+    #[error("expected the units of the columns in brackets: MoorDyn skips this line, and the row would be lost")]
+    NoUnits,
+    /// A section that must be there is not; the line is the last of the file.
+    #[error("the file ends here without a section {section}")]
+    NoSection {
+        /// Words of its header.
+        section: &'static str,
+    },
+    /// A row with too few values.
+    #[error("the row has {found} of the {needed} values that it needs: {columns}")]
+    TooFew {
+        /// How many stand there.
+        found: usize,
+        /// How many should.
+        needed: usize,
+        /// What they are.
+        columns: &'static str,
+    },
+    /// Something else than what is expected.
+    #[error("{item}: found {found}, expected {expected}")]
+    Unreadable {
+        /// The column or option.
+        item: &'static str,
+        /// What stands there.
+        found: String,
+        /// What should stand there.
+        expected: &'static str,
+    },
+    /// A name or number that nothing has.
+    #[error("{item}: there is no `{name}`{}", among(.name, .known))]
+    Unknown {
+        /// The column.
+        item: &'static str,
+        /// What is not there.
+        name: String,
+        /// What is there.
+        known: Vec<String>,
+    },
+    /// A number or name that another row has already.
+    #[error("{item}: {name} stands twice, first in line {first_line}")]
+    Taken {
+        /// The column.
+        item: &'static str,
+        /// The number or name.
+        name: String,
+        /// Line of the first, from 1.
+        first_line: usize,
+    },
+    /// What no scene can hold.
+    #[error("{item}: {reason}")]
+    CannotHold {
+        /// The column, option or section.
+        item: String,
+        /// Why, and what would do.
         reason: String,
     },
 }

@@ -48,6 +48,7 @@ pub mod scene {
     pub mod cable;
     pub mod check;
     pub mod load_file;
+    pub mod moordyn;
     pub mod motion_file;
     pub mod placing;
     pub mod pose_file;
@@ -188,6 +189,7 @@ pub mod fmi {
 pub mod report {
     pub mod cable_files;
     pub mod course;
+    pub mod moordyn_out;
     pub mod offsets;
     pub mod page;
     pub mod page_data;

@@ -1,12 +1,13 @@
 //! Ends that are clamped to bodies: cantilevers in closed form, at rest and in motion.
 
 use moorline::scene::read::{self, Loaded};
-use moorline::solve::mooring::Mooring;
 use moorline::solve::part::Part;
-use moorline::solve::simulation::Outputs;
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 use std::path::Path;
+use support::mooring::settled;
+
+mod support;
 
 const EI: f64 = 5.0e6;
 const LENGTH: f64 = 10.0;
@@ -29,16 +30,6 @@ fn cantilever(attitude: [f64; 3], pull: Vector3<f64>, stiffness: Value, elements
 
 fn load(scene: &Value) -> Loaded {
     read::parse(&scene.to_string(), "test", Path::new("."), &[]).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn settled(loaded: &Loaded) -> (Mooring, Vec<Outputs>) {
-    let mut mooring = Mooring::new(loaded).unwrap_or_else(|error| panic!("{error}"));
-    let mut outputs = Vec::new();
-    for part in &mut mooring.parts {
-        part.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
-        (0..part.lines().len()).for_each(|local| outputs.push(part.outputs(local)));
-    }
-    (mooring, outputs)
 }
 
 /// A load P across the end of a cantilever: P L³/3EI, and moment P L at the wall; a clamp that gives way adds P L²/k. The clamp of "clamped" gives way

@@ -3,11 +3,11 @@
 mod support;
 
 use moorline::scene::read::{self, Loaded};
-use moorline::solve::mooring::Mooring;
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::{Outputs, Simulation};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
+use support::mooring::settled as moored;
 use support::{GRAVITY, Hanging, Piece, assert_close, bisect, weight};
 
 fn load(name: &str) -> Loaded {
@@ -235,19 +235,6 @@ fn calm_line_has_the_mean_tension_of_the_report() {
     let rows = history(&scene);
     let largest = rows.iter().map(|row| row.tension).fold(0.0, f64::max);
     assert_close("largest tension", largest, 102.0 * 4448.2216, 3e-3);
-}
-
-/// All lines of a scene in equilibrium, with its mooring.
-fn moored(scene: &Loaded) -> (Mooring, Vec<Outputs>) {
-    let mut mooring = Mooring::new(scene).unwrap_or_else(|error| panic!("{error}"));
-    let mut outputs = vec![None; scene.scene.lines.len()];
-    for part in &mut mooring.parts {
-        part.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
-        for (local, index) in part.lines().to_vec().into_iter().enumerate() {
-            outputs[index] = Some(part.outputs(local));
-        }
-    }
-    (mooring, outputs.into_iter().flatten().collect())
 }
 
 /// A line of one section between the ends where it was found, in closed form (Irvine 1981), hanging or partly on a rigid level bed: its tensions at

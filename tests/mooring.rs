@@ -4,7 +4,6 @@ use moorline::rod::pose::PosePath;
 use moorline::scene::read::{self, Loaded};
 use moorline::solve::group::{EndOf, Group};
 use moorline::solve::loads;
-use moorline::solve::mooring::Mooring;
 use moorline::solve::motion::{Ends, Path};
 use moorline::solve::part::Part;
 use moorline::solve::partition;
@@ -13,6 +12,9 @@ use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::sync::Arc;
+use support::mooring::settled;
+
+mod support;
 
 fn load(scene: &Value) -> Loaded {
     read::parse(&scene.to_string(), "test", std::path::Path::new("."), &[]).unwrap_or_else(|error| panic!("{error}"))
@@ -22,19 +24,6 @@ fn example(name: &str, sets: &[&str]) -> Loaded {
     let path = format!("{}/examples/{name}", env!("CARGO_MANIFEST_DIR"));
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     read::load(std::path::Path::new(&path), &sets).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// Outputs of all lines of a mooring in equilibrium at t = 0.
-fn settled(loaded: &Loaded) -> (Mooring, Vec<Outputs>) {
-    let mut mooring = Mooring::new(loaded).unwrap_or_else(|error| panic!("{error}"));
-    let mut outputs = vec![None; loaded.scene.lines.len()];
-    for part in &mut mooring.parts {
-        part.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
-        for (local, index) in part.lines().to_vec().into_iter().enumerate() {
-            outputs[index] = Some(part.outputs(local));
-        }
-    }
-    (mooring, outputs.into_iter().flatten().collect())
 }
 
 fn chain() -> Value {

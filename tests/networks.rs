@@ -4,7 +4,6 @@
 //!
 //! `cargo test --release --test networks` plays a part of them, with `-- --ignored --nocapture` 300.
 
-use moorline::error::Error;
 use moorline::scene::read::{self, Loaded};
 use moorline::solve::mooring::Mooring;
 use moorline::solve::part::Part;
@@ -14,6 +13,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
 use support::GRAVITY;
+use support::mooring::settle;
 use support::random::Random;
 
 mod support;
@@ -142,18 +142,6 @@ fn scene(seed: u64) -> Value {
         environment["seabed"] = json!({"friction": random.between(0.1, 1.0)});
     }
     json!({"environment": environment, "line_types": types, "lines": made.lines, "points": made.points, "bodies": made.bodies})
-}
-
-/// Puts the parts of a mooring in equilibrium.
-fn settle(mooring: &mut Mooring, lines: usize) -> Result<Vec<Outputs>, Error> {
-    let mut outputs = vec![None; lines];
-    for part in &mut mooring.parts {
-        part.settle(0.0)?;
-        for (local, index) in part.lines().to_vec().into_iter().enumerate() {
-            outputs[index] = Some(part.outputs(local));
-        }
-    }
-    Ok(outputs.into_iter().flatten().collect())
 }
 
 /// Every line pulls as it does alone between the ends where it was found, to 3e-3 (meshes differ, within three times the tolerance) of its tension

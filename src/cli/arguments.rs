@@ -37,14 +37,14 @@ pub enum Command {
     Schema,
     /// Write an FMU: a co-simulation unit for FMI 2.0 masters
     Pack(PackArguments),
-    /// JSON scene to CABLE file and back; says what the other format cannot hold
+    /// JSON scene to CABLE or MoorDyn file and back; says what the other format cannot hold
     Convert(ConvertArguments),
 }
 
 /// `moorline run`.
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// Scene file or CABLE file; without one, the built-in case of Lindahl & Sjöberg
+    /// Scene file, CABLE file or MoorDyn file; without one, the built-in case of Lindahl & Sjöberg
     pub scene: Option<PathBuf>,
     /// Where to and how.
     #[command(flatten)]
@@ -107,7 +107,7 @@ pub struct FitArguments {
 /// A scene and what to change in it.
 #[derive(Debug, Args)]
 pub struct SceneArguments {
-    /// Scene file, or a CABLE file
+    /// Scene file, CABLE file or MoorDyn file
     pub scene: PathBuf,
     /// Value to put into the scene before it is checked, such as environment.depth=100; repeatable
     #[arg(long = "set", value_name = "PLACE=VALUE")]
@@ -124,7 +124,7 @@ impl SceneArguments {
 /// `moorline pack`.
 #[derive(Debug, Args)]
 pub struct PackArguments {
-    /// Scene file or CABLE file; without one, the built-in case of Lindahl & Sjöberg
+    /// Scene file, CABLE file or MoorDyn file; without one, the built-in case of Lindahl & Sjöberg
     pub scene: Option<PathBuf>,
     /// The FMU to write
     #[arg(short, long, value_name = "FILE.fmu")]
@@ -140,9 +140,9 @@ pub struct PackArguments {
 /// `moorline convert`.
 #[derive(Debug, Args)]
 pub struct ConvertArguments {
-    /// JSON scene or CABLE file
+    /// JSON scene, CABLE file or MoorDyn file
     pub input: PathBuf,
-    /// CABLE file or JSON scene
+    /// JSON scene, or of a JSON scene a CABLE file; a name that ends in .txt is a MoorDyn file
     pub output: PathBuf,
 }
 

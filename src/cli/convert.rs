@@ -1,4 +1,4 @@
-//! `moorline convert`: JSON scene to CABLE file and back, with a word on what the other format cannot hold.
+//! `moorline convert`: JSON scene to CABLE or MoorDyn file and back, with a word on what the other format cannot hold.
 
 use crate::cli::arguments::ConvertArguments;
 use crate::cli::console::{self, on_terminal};
@@ -6,9 +6,10 @@ use crate::cli::stop::Stop;
 use crate::error::Error;
 use crate::report::tables;
 use crate::scene::cable::{Deck, Job, MotionKind, forced_motion, from_scene, turned_back, writing};
+use crate::scene::moordyn;
 use crate::scene::motion_file::Table;
 use crate::scene::read::{self, Loaded};
-use crate::scene::types::Motion;
+use crate::scene::types::{Motion, Scene};
 use crate::solve::motion::Path as Fairlead;
 use crate::solve::simulation::Simulation;
 use std::fmt::Write;
@@ -18,9 +19,12 @@ use std::path::{Path, PathBuf};
 pub fn convert(arguments: &ConvertArguments) -> Result<(), Stop> {
     let loaded = read::load(&arguments.input, &[])?;
     loaded.warnings.iter().for_each(|warning| console::warning(warning));
-    let losses = match loaded.deck.clone() {
-        Some(deck) => to_scene(loaded, &deck, &arguments.output)?,
-        None => to_deck(&loaded, &arguments.output)?,
+    let text = arguments.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("txt"));
+    let losses = match (loaded.deck.clone(), &loaded.moordyn) {
+        (Some(deck), _) => to_scene(loaded, &deck, &arguments.output)?,
+        (None, _) if text => to_moordyn(&loaded, &arguments.output)?,
+        (None, Some(_)) => of_moordyn(&loaded, &arguments.output)?,
+        (None, None) => to_deck(&loaded, &arguments.output)?,
     };
     let mut text = format!("{}\n", on_terminal(&arguments.output.display().to_string()));
     for loss in losses {
@@ -50,8 +54,36 @@ fn to_scene(loaded: Loaded, deck: &Deck, output: &Path) -> Result<Vec<String>, E
     if deck.job == Job::Statics {
         losses.push("TBGN, TEND: a scene of statics has run.duration 0".to_string());
     }
+    write_scene(&scene, output)?;
+    Ok(losses)
+}
+
+fn write_scene(scene: &Scene, output: &Path) -> Result<(), Error> {
     // Plain data of numbers and strings: there is nothing in it that JSON cannot hold.
-    tables::write(output, &(serde_json::to_string_pretty(&scene).unwrap_or_default() + "\n"))?;
+    tables::write(output, &(serde_json::to_string_pretty(scene).unwrap_or_default() + "\n"))
+}
+
+/// Writes the scene of a MoorDyn file; what a scene has no need of.
+fn of_moordyn(loaded: &Loaded, output: &Path) -> Result<Vec<String>, Error> {
+    write_scene(&loaded.scene, output)?;
+    Ok(vec![
+        String::from("NumSegs: the program chooses elements itself; `elements` of a section gives their number"),
+        String::from("kinds of lines, points and rods that no line needs are left out"),
+    ])
+}
+
+/// Writes the MoorDyn file of a scene and the files beside it; what such a file cannot hold.
+fn to_moordyn(loaded: &Loaded, output: &Path) -> Result<Vec<String>, Error> {
+    let conversion = moordyn::from_scene::deck(&loaded.scene, &loaded.file)?;
+    let stem = output.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().replace(char::is_whitespace, "_"));
+    let texts = moordyn::writing::texts(&conversion, &stem);
+    tables::write(output, &texts.deck)?;
+    let mut losses = conversion.losses;
+    for (name, text) in &texts.beside {
+        let path = output.parent().map_or_else(PathBuf::new, Path::to_path_buf).join(name);
+        tables::write(&path, text)?;
+        losses.push(format!("{} is beside it", path.display()));
+    }
     Ok(losses)
 }
 

@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::fmi::pack::{self, Libraries, Naming};
 use crate::report::cable_files::CableFiles;
 use crate::report::course::{Course, Follower, Row, Wanted};
+use crate::report::moordyn_out;
 use crate::report::page;
 use crate::report::record::Record;
 use crate::report::schedule::Schedule;
@@ -48,6 +49,10 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     record.ended_by = outcome.as_ref().err().cloned();
     tables::write(&files.summary, &tables::summary(&record))?;
     tables::write(&files.report, &page::html(&record))?;
+    if let Some(text) = loaded.moordyn.as_ref().and_then(|deck| moordyn_out::text(&record, deck)) {
+        let stem = Path::new(&loaded.file).file_stem().unwrap_or_default().to_string_lossy();
+        tables::write(&arguments.options.output.join(format!("{stem}.out")), &text)?;
+    }
     let built_in_done = arguments.scene.is_none() && outcome.is_ok();
     let fmu = if built_in_done { leave_fmu(&loaded, &arguments.options.output)? } else { String::new() };
     if !quiet {

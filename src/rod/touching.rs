@@ -134,12 +134,12 @@ impl Ground {
     /// Adds the tangent of the push on element `e` to the matrix.
     pub fn tangent(&self, table: &Table, at: &Motion, e: usize, weights: &Weights, matrix: &mut BlockTridiagonal<6>) {
         let length = table.length_of(e);
-        let (u, v) = (Ends::gather(at.u, e, length), Ends::gather(at.v, e, length));
+        let u = Ends::gather(at.u, e, length);
         let Some(profile) = self.near(table, &u, e) else { return };
         let (resistance, normal) = (&self.resistance[e], &self.plane.normal);
         let grounded = self.grounded(e, &profile);
         let touching = if grounded.is_some() { Intervals::whole() } else { resistance.touching(&profile) };
-        let rates = v.along(normal);
+        let rates = Ends::gather(at.v, e, length).along(normal);
         let stiffness = |height: f64, rate: f64| {
             let (by_position, by_rate) = resistance.tangent(height, rate);
             -(by_position * weights.u + by_rate * weights.v)

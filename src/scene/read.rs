@@ -1,4 +1,4 @@
-//! From text to a checked scene: JSON or a CABLE file, `--set`, types, names, plausibility, motion file. Every way to fail names its
+//! From text to a checked scene: JSON, a CABLE file or a MoorDyn file, `--set`, types, names, plausibility, motion file. Every way to fail names its
 //! place.
 
 mod place;
@@ -7,8 +7,9 @@ mod setting;
 use crate::error::{Error, Problem};
 use crate::scene::bodies::{BodyMotion, PointMotion};
 use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
+use crate::scene::moordyn;
 use crate::scene::state::LineState;
-use crate::scene::text::{char_start, decode, line_and_column, read_bytes};
+use crate::scene::text::{char_start, decode, decode_leniently, line_and_column, read_bytes};
 use crate::scene::types::{Motion, Scene, Scheme};
 use crate::scene::{check, load_file, motion_file, pose_file};
 use place::{Place, Step, shortened};
@@ -44,6 +45,8 @@ pub struct Loaded {
     pub deck: Option<Arc<Deck>>,
     /// The state of the only line that the file gives, else none.
     pub state: Option<Arc<LineState>>,
+    /// The MoorDyn file that the scene was read from, else none.
+    pub moordyn: Option<Arc<moordyn::Deck>>,
     /// What is allowed but may not be meant.
     pub warnings: Vec<String>,
 }
@@ -61,6 +64,7 @@ impl Loaded {
             point_motions: Vec::new(),
             deck: None,
             state: None,
+            moordyn: None,
             warnings: Vec::new(),
         }
     }
@@ -69,7 +73,11 @@ impl Loaded {
 /// Reads and checks a scene file, changed by `--set` entries (`place=value`).
 pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Error> {
     let file = path.display().to_string();
-    let text = decode(read_bytes(path, LARGEST, "a scene file")?, &file)?;
+    let text = String::from_utf8(read_bytes(path, LARGEST, "a scene file")?).or_else(|error| {
+        // Headings of old MoorDyn files have signs of other encodings.
+        let lenient = decode_leniently(error.as_bytes().to_vec());
+        if moordyn::sections::is_deck(&lenient) { Ok(lenient) } else { decode(error.into_bytes(), &file) }
+    })?;
     parse(&text, &file, path.parent().unwrap_or(Path::new("")), sets)
 }
 
@@ -82,6 +90,9 @@ pub fn built_in(sets: &[String]) -> Result<Loaded, Error> {
 /// relative to `directory`.
 pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Result<Loaded, Error> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if moordyn::sections::is_deck(text) {
+        return parse_moordyn(text, file, directory, sets);
+    }
     if !text.trim().is_empty() && reading::is_deck(text) {
         return parse_deck(text, file, directory, sets);
     }
@@ -99,6 +110,7 @@ pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resul
         point_motions: Vec::new(),
         deck: None,
         state: None,
+        moordyn: None,
         warnings,
     };
     read_motion(&mut loaded)?;
@@ -130,10 +142,43 @@ fn parse_deck(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resu
         point_motions: Vec::new(),
         deck,
         state,
+        moordyn: None,
         warnings,
     };
     read_motion(&mut loaded)?;
     Ok(loaded)
+}
+
+/// Reads and checks a MoorDyn file, changed by `--set` entries that speak of its scene.
+fn parse_moordyn(text: &str, file: &str, directory: &Path, sets: &[String]) -> Result<Loaded, Error> {
+    let reading = moordyn::reading::read(text, file, directory)?;
+    let meaning = moordyn::to_scene::meaning(&reading, text, file, directory)?;
+    let mut value = serde_json::to_value(&meaning.scene).unwrap_or_default();
+    let applied = setting::apply(&mut value, sets, file)?;
+    let scene = typed(&value, &Source { text: "", file, applied: &applied })?;
+    let placed = |error| if sets.is_empty() { in_the_rows(error, &meaning.spots) } else { error };
+    let mut warnings: Vec<String> = meaning.warnings.iter().map(|warning| format!("{file}: {warning}")).collect();
+    warnings.extend(check::check(&scene, file).map_err(placed)?);
+    let mut loaded = Loaded { file: file.into(), directory: directory.into(), warnings, ..Loaded::of_scene(scene) };
+    loaded.moordyn = Some(Arc::new(reading.deck));
+    read_motion(&mut loaded)?;
+    Ok(loaded)
+}
+
+/// An error of the check with the line of the MoorDyn file.
+fn in_the_rows(error: Error, spots: &[(String, usize)]) -> Error {
+    let at = |place: String| match spots.iter().find(|(of, _)| place.starts_with(of)) {
+        Some((_, line)) => format!("line {line}, {place}"),
+        None => place,
+    };
+    match error {
+        Error::Value { file, place, value, allowed } => Error::Value { file, place: at(place), value, allowed },
+        Error::Reach(mut reach) => {
+            reach.place = at(reach.place);
+            Error::Reach(reach)
+        }
+        other => other,
+    }
 }
 
 /// An error of the check with line and column of the CABLE file.

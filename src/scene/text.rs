@@ -30,6 +30,12 @@ pub fn decode(bytes: Vec<u8>, file: &str) -> Result<String, Error> {
     })
 }
 
+/// The text of a file that may be of an older encoding than UTF-8: what is not UTF-8 becomes a replacement character, as of signs in
+/// headings and comments, where it does no harm.
+pub fn decode_leniently(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
+}
+
 /// The byte at or before `offset` with which a character of the text begins.
 pub fn char_start(text: &str, offset: usize) -> usize {
     (0..=offset.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)

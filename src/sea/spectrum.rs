@@ -13,7 +13,7 @@
 //! elevation is H_s²/16 for any N. Frequencies from 0.3 to 5 f_p are used, beyond which lies 0.2 % of the energy. What a cut-off takes away
 //! is left out, not put elsewhere: the sea is then lower than H_s.
 
-use crate::scene::types::OchiHubblePart;
+use crate::scene::types::{OchiHubblePart, variance};
 use crate::sea::wave::Wave;
 use std::f64::consts::TAU;
 
@@ -144,8 +144,7 @@ pub struct Table(pub Vec<[f64; 2]>);
 
 impl Spectrum for Table {
     fn height(&self) -> f64 {
-        let area: f64 = self.0.windows(2).map(|rows| 0.5 * (rows[0][1] + rows[1][1]) * (rows[1][0] - rows[0][0])).sum();
-        4.0 * area.sqrt()
+        4.0 * variance(&self.0).sqrt()
     }
 
     fn period(&self) -> f64 {

@@ -1,6 +1,7 @@
 //! Lines that hang on free bodies and points, through statics and time together: one step for all, so that what joins them is solved for with them.
 
 use crate::error::{Adrift, Error, Trouble};
+use crate::rod::clamp::Clamp;
 use crate::rod::cylinder::{Load, Surround};
 use crate::rod::line::Supports;
 use crate::rod::mesh::Mesh;
@@ -141,9 +142,7 @@ impl Group {
                 node: start + hold.node,
                 ..hold.clone()
             }));
-            supports
-                .clamps
-                .extend(own.clamps.iter().map(|clamp| crate::rod::clamp::Clamp { node: start + clamp.node, ..clamp.clone() }));
+            supports.clamps.extend(own.clamps.iter().map(|clamp| Clamp { node: start + clamp.node, ..clamp.clone() }));
             let mut slot = 0;
             for (node, on, path) in
                 [(*start, &line.anchor_on, &ends[local].anchor), (last, &line.fairlead_on, &ends[local].fairlead)]

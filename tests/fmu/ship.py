@@ -12,6 +12,9 @@ import tempfile
 
 from fmpy.ssp.ssd import read_ssd
 
+SEEN = [("ship", "position.x"), ("ship", "position.y"), ("ship", "attitude.yaw")]
+SEEN += [("mooring", "ship.force.x"), ("mooring", "ship.force.y"), ("mooring", "ship.moment.z")]
+
 fmu = pathlib.Path(sys.argv[1])
 examples = pathlib.Path(__file__).parents[2] / "examples"
 
@@ -31,7 +34,7 @@ with tempfile.TemporaryDirectory() as name:
     shutil.copy(fmu, folder / "mooring.fmu")
     build = [sys.executable, "-m", "pythonfmu", "build", "-f", str(examples / "osp/ship/ship.py"), "-d", name]
     subprocess.run(build, check=True, capture_output=True)
-    in_osp = module("osp/ship/run.py").run(folder)[-1][1:]
+    in_osp = module("osp/run.py").run(folder, SEEN, seconds=900)[-1][1:]
 
     package = str(folder / "moored-ship.ssp")
     module("ssp/pack.py").pack(package, examples / "ssp/ship", folder / "mooring.fmu", folder / "Ship.fmu")
@@ -40,9 +43,7 @@ with tempfile.TemporaryDirectory() as name:
     kinds = {(component.name, connector.name): connector.kind for component in system.elements for connector in component.connectors}
     ends = [(connection.endElement, connection.endConnector) for connection in system.connections]
     assert sorted(ends) == sorted(key for key, kind in kinds.items() if kind == "input"), "an input has no connection, or two"
-    seen = [("ship", "position.x"), ("ship", "position.y"), ("ship", "attitude.yaw")]
-    seen += [("mooring", "ship.force.x"), ("mooring", "ship.force.y"), ("mooring", "ship.moment.z")]
-    in_ssp = module("ssp/run.py").run(package, seen, end=900.0)[-1][1:]
+    in_ssp = module("ssp/run.py").run(package, SEEN, end=900.0)[-1][1:]
 
 # After a quarter of an hour the ship is where the mooring holds the wind: pose within 1e-3 of that of FMPy; the loads of an instant are good to the
 # tolerance of the tensions, 1e-3 of some 1 MN in each of eight lines, which is 1e-2 of what is left of them.

@@ -25,6 +25,7 @@ use moorline::solve::statics::{self, Balance};
 use nalgebra::{DMatrix, SVector, Vector3};
 use serde_json::Value;
 
+pub mod mooring;
 pub mod program;
 pub mod python;
 pub mod random;

@@ -1,5 +1,6 @@
 //! Python for the tests that other programs take part in.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -13,10 +14,13 @@ pub fn run(command: &mut Command, purpose: &str) -> Result<(), String> {
     Err(format!("{purpose}: {command:?} ended with {}\n{out}\n{err}", output.status))
 }
 
-/// The Python of the virtual environment `name` among the files of the tests, which holds `packages`.
+/// The Python of the virtual environment `name` among the files of the tests, which holds `packages`. Tests that run at once may ask
+/// for the same one: the first makes it, the others wait for it.
 pub fn environment(name: &str, packages: &[&str]) -> Result<PathBuf, String> {
     let environment = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let lock = File::create(environment.with_extension("lock")).map_err(|error| error.to_string())?;
+    lock.lock().map_err(|error| error.to_string())?;
     let finished = environment.join("packages.txt");
     if std::fs::read_to_string(&finished).is_ok_and(|found| found == packages.join("\n")) {
         return Ok(python);

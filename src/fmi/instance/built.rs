@@ -238,6 +238,7 @@ impl Built {
     pub fn outputs(&mut self, index: usize) -> Outputs {
         let [work, _] = self.works(index);
         match &mut self.lines[index].what {
+            // Its work is among its outputs.
             What::Own(simulation) => simulation.observe(),
             What::Member { group, local } => Outputs { work, ..self.groups[*group].outputs(*local) },
         }

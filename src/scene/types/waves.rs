@@ -186,14 +186,17 @@ impl Waves {
                 Some((one.hs.hypot(other.hs), if one.hs >= other.hs { one.tp } else { other.tp }))
             }
             Waves::Table { spectrum, .. } => {
-                let variance: f64 =
-                    spectrum.windows(2).map(|rows| 0.5 * (rows[0][1] + rows[1][1]) * (rows[1][0] - rows[0][0])).sum();
                 let peak = spectrum.iter().max_by(|one, other| one[1].total_cmp(&other[1]))?;
-                Some((4.0 * variance.sqrt(), peak[0].recip()))
+                Some((4.0 * variance(spectrum).sqrt(), peak[0].recip()))
             }
             Waves::Regular { .. } | Waves::Components { .. } => None,
         }
     }
+}
+
+/// Variance of the elevation [m²] of a sea whose spectrum is a table of frequency [Hz] and density [m²/Hz], linear between its rows.
+pub fn variance(spectrum: &[[f64; 2]]) -> f64 {
+    spectrum.windows(2).map(|rows| 0.5 * (rows[0][1] + rows[1][1]) * (rows[1][0] - rows[0][0])).sum()
 }
 
 fn jonswap_gamma() -> f64 {

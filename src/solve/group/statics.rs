@@ -190,7 +190,12 @@ impl Group {
     }
 
     /// The same step, no longer than `most` of what is sensible.
-    pub(super) fn bounded(&self, step: &DVector<f64>, most: f64) -> DVector<f64> {
+    fn bounded(&self, step: &DVector<f64>, most: f64) -> DVector<f64> {
+        step * self.sensible(step, most)
+    }
+
+    /// The share of a step that is no longer than `most` of what is sensible [-].
+    pub(super) fn sensible(&self, step: &DVector<f64>, most: f64) -> f64 {
         let shortest = self.simulations.iter().map(|simulation| simulation.line().mesh().length).fold(f64::INFINITY, f64::min);
         let reach = self.network.bodies.iter().map(Rigid::reach).fold(0.0, f64::max);
         let farthest = FARTHEST * if shortest.is_finite() { shortest } else { 4.0 * reach.max(1.0) };
@@ -202,7 +207,7 @@ impl Group {
                 longest = longest.max(part(3) / LARGEST_TURN);
             }
         }
-        step * (most / longest).min(1.0)
+        (most / longest).min(1.0)
     }
 
     pub(super) fn of_masters(&self, field: &Field) -> DVector<f64> {

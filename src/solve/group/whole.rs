@@ -10,7 +10,6 @@ use crate::rod::state::{Field, State};
 use crate::rod::system::System;
 use crate::solve::newton::motion;
 use crate::solve::turn::{self, LONGEST_STEP};
-use nalgebra::DVector;
 
 /// Iterations at most.
 const ITERATIONS: usize = 40;
@@ -34,12 +33,7 @@ impl Group {
             if !turn.is_finite() {
                 return None;
             }
-            let bounded = {
-                let of_masters: DVector<f64> = self.of_masters(&step);
-                let size = of_masters.norm();
-                if size > 0.0 { self.bounded(&of_masters, 1.0).norm() / size } else { 1.0 }
-            };
-            let scale = -(LONGEST_STEP / turn).min(1.0).min(bounded);
+            let scale = -(LONGEST_STEP / turn).min(1.0).min(self.sensible(&self.of_masters(&step), 1.0));
             step.data_mut().iter_mut().for_each(|x| *x *= scale);
             self.network.rod.linear_tensions(&state.u, &step, &mut tension);
             state.u.add(1.0, &step);

@@ -94,6 +94,7 @@ fn the_schema_reads_the_model_description() {
         assert_eq!(start.unwrap_or(0.0), definition.start, "{}", variable.name);
     }
     let outputs = variables.iter().enumerate().filter(|(_, variable)| variable.causality == Causality::Output);
-    let listed: Vec<usize> = description.model_structure.outputs.unknowns.iter().map(|unknown| unknown.index as usize - 1).collect();
+    let listed: Vec<usize> =
+        description.model_structure.outputs.unknowns.iter().map(|unknown| unknown.index as usize - 1).collect();
     assert_eq!(listed, outputs.map(|(index, _)| index).collect::<Vec<_>>());
 }

@@ -1,0 +1,218 @@
+//! A MoorDyn file: what it says, row by row, in the names and units of its manual, and the way to a scene.
+//!
+//! Axes are those of a scene: z up, still water at z = 0. A line runs from end A (the anchor in older files) to end B (the fairlead);
+//! a scene counts from the fairlead.
+
+pub mod beside;
+pub mod from_scene;
+pub mod options;
+pub mod outputs;
+pub mod reading;
+pub mod sections;
+pub mod to_scene;
+pub mod words;
+pub mod writing;
+
+use crate::scene::types::Triple;
+use options::Options;
+use outputs::Channel;
+use words::{Attachment, LineEnd};
+
+/// A MoorDyn file. Every row keeps its line in the text, from 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deck {
+    /// First line of the front matter that says something.
+    pub title: String,
+    /// LINE TYPES or LINE DICTIONARY.
+    pub line_types: Vec<LineKind>,
+    /// ROD TYPES or ROD DICTIONARY.
+    pub rod_types: Vec<RodKind>,
+    /// BODIES.
+    pub bodies: Vec<DeckBody>,
+    /// RODS.
+    pub rods: Vec<DeckRod>,
+    /// POINTS, CONNECTION PROPERTIES or NODE PROPERTIES.
+    pub points: Vec<DeckPoint>,
+    /// LINES.
+    pub lines: Vec<DeckLine>,
+    /// OPTIONS.
+    pub options: Options,
+    /// OUTPUTS.
+    pub outputs: Vec<Channel>,
+}
+
+/// A kind of line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineKind {
+    /// Line of the text.
+    pub row: usize,
+    /// Name.
+    pub name: String,
+    /// Diameter of a cylinder of the same displacement [m].
+    pub diameter: f64,
+    /// Mass per length [kg/m].
+    pub mass: f64,
+    /// EA.
+    pub stiffness: Stiffness,
+    /// BA [N·s]; below zero: minus the share of the critical damping of a segment.
+    pub damping: f64,
+    /// EI [N·m²].
+    pub ei: f64,
+    /// Drag across [-].
+    pub drag: f64,
+    /// Added mass across [-].
+    pub added_mass: f64,
+    /// Drag along, on the skin [-].
+    pub drag_along: f64,
+    /// Added mass along [-].
+    pub added_mass_along: f64,
+}
+
+/// Axial stiffness.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stiffness {
+    /// EA [N].
+    Linear(f64),
+    /// Strain [-] and tension [N].
+    Table(Vec<[f64; 2]>),
+}
+
+/// A kind of rod.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RodKind {
+    /// Line of the text.
+    pub row: usize,
+    /// Name.
+    pub name: String,
+    /// Diameter [m].
+    pub diameter: f64,
+    /// Mass per length [kg/m].
+    pub mass: f64,
+    /// Drag across [-].
+    pub drag: f64,
+    /// Added mass across [-].
+    pub added_mass: f64,
+    /// Drag of an end [-].
+    pub end_drag: f64,
+    /// Added mass of an end [-].
+    pub end_added_mass: f64,
+}
+
+/// A body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeckBody {
+    /// Line of the text.
+    pub row: usize,
+    /// Its number.
+    pub id: u32,
+    /// What holds it.
+    pub attachment: Attachment,
+    /// Position of the reference point [m].
+    pub position: Triple,
+    /// Roll, pitch and yaw [deg].
+    pub attitude: Triple,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Centre of mass in body axes [m].
+    pub centre: Triple,
+    /// Inertia about the centre of mass [kg·m²].
+    pub inertia: Triple,
+    /// Displaced volume, at the centre of mass [m³].
+    pub volume: f64,
+    /// Drag coefficient times area, six ways [m², m⁵].
+    pub drag_area: [f64; 6],
+    /// Added-mass coefficients on the volume [-].
+    pub added_mass: Triple,
+}
+
+/// A rod.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeckRod {
+    /// Line of the text.
+    pub row: usize,
+    /// Its number.
+    pub id: u32,
+    /// Index of its kind.
+    pub kind: usize,
+    /// What holds it.
+    pub attachment: Attachment,
+    /// End A [m].
+    pub a: Triple,
+    /// End B [m]; of a rod without segments it gives the direction alone.
+    pub b: Triple,
+    /// Number of segments; 0: a rod of no length.
+    pub segments: usize,
+}
+
+/// A point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeckPoint {
+    /// Line of the text.
+    pub row: usize,
+    /// Its number.
+    pub id: u32,
+    /// What holds it.
+    pub attachment: Attachment,
+    /// Position, in body axes where it is on a body [m].
+    pub position: Triple,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Displaced volume [m³].
+    pub volume: f64,
+    /// Constant force [N].
+    pub force: Triple,
+    /// Drag coefficient times area [m²].
+    pub drag_area: f64,
+    /// Added-mass coefficient on the volume [-].
+    pub added_mass: f64,
+}
+
+/// A line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeckLine {
+    /// Line of the text.
+    pub row: usize,
+    /// Its number.
+    pub id: u32,
+    /// Index of its kind.
+    pub kind: usize,
+    /// Ends A and B.
+    pub ends: [LineEnd; 2],
+    /// Unstretched length [m].
+    pub length: f64,
+    /// Number of segments.
+    pub segments: usize,
+}
+
+impl DeckLine {
+    /// Name of a line in the scene.
+    pub fn name_of(id: u32) -> String {
+        format!("line{id}")
+    }
+}
+
+impl DeckBody {
+    /// Name of a body in the scene.
+    pub fn name_of(id: u32) -> String {
+        format!("body{id}")
+    }
+}
+
+impl DeckPoint {
+    /// Name of a free point in the scene.
+    pub fn name_of(id: u32) -> String {
+        format!("point{id}")
+    }
+}
+
+impl DeckRod {
+    /// Name in the scene of the body that a rod is.
+    pub fn name_of(id: u32) -> String {
+        format!("rod{id}")
+    }
+
+    /// Whether it has no length.
+    pub fn is_point(&self) -> bool {
+        self.segments == 0 || self.a == self.b
+    }
+}

@@ -1,0 +1,417 @@
+//! MoorDyn files: every spelling means the same scene, statics agree with closed forms and with MoorPy, and what is wrong is refused by its
+//! line.
+
+mod support;
+
+use moorline::scene::bodies::{Inertia, Mount};
+use moorline::scene::read::{Loaded, load, parse};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use support::mooring::settled;
+use support::{GRAVITY, assert_close, program};
+
+const SECOND: &str = include_str!("data/moordyn/spread-v2.txt");
+const FIRST: &str = include_str!("data/moordyn/spread-v1.txt");
+
+fn directory() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/moordyn")
+}
+
+fn read(text: &str) -> Loaded {
+    parse(text, "deck.txt", &directory(), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn deck(name: &str) -> Loaded {
+    load(&directory().join(name), &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The message with which a text is refused; it must mean exit code 2.
+fn message(text: &str) -> String {
+    match parse(text, "deck.txt", &directory(), &[]) {
+        Ok(_) => panic!("accepted:\n{text}"),
+        Err(error) => {
+            assert_eq!(error.exit_code(), 2, "{error}");
+            error.to_string()
+        }
+    }
+}
+
+/// The second version's barge with one passage replaced, which must stand there once.
+fn edited(from: &str, to: &str) -> String {
+    assert_eq!(SECOND.matches(from).count(), 1, "{from:?} must stand once in the deck");
+    SECOND.replacen(from, to, 1)
+}
+
+fn without_title(loaded: &Loaded) -> Value {
+    let mut value = serde_json::to_value(&loaded.scene).expect("a scene is JSON");
+    value["title"] = json!("");
+    value
+}
+
+/// Version 1 with tabs, comments, counts of rows, texts after rows, ends after lengths and old words is the scene of version 2.
+#[test]
+fn both_versions_say_the_same_scene() {
+    assert_eq!(without_title(&read(FIRST)), without_title(&read(SECOND)));
+    for text in [SECOND.replace('\n', "\r\n"), format!("\u{feff}{SECOND}"), SECOND.trim_end().to_string(), SECOND.to_uppercase()]
+    {
+        let mut value = without_title(&read(&text));
+        let text = value.to_string().replace("CHAIN", "chain").replace("WIRE", "wire");
+        value = text.parse().expect("JSON");
+        assert_eq!(value, without_title(&read(SECOND)));
+    }
+    // Signs of an older encoding in the units do no harm.
+    let latin: Vec<u8> = SECOND.replace("(m^3)", "(m\u{b3})").chars().map(|c| c as u8).collect();
+    let place = program::directory("latin").join("deck.txt");
+    std::fs::write(&place, latin).expect("written");
+    let loaded = load(&place, &[]).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(without_title(&loaded), without_title(&read(SECOND)));
+}
+
+/// Every number of the deck where docs/moordyn-files.md puts it.
+#[test]
+fn numbers_are_where_the_manual_of_the_format_puts_them() {
+    let scene = read(SECOND).scene;
+    assert_eq!(scene.title, "Spread mooring of a barge in 90 m of water");
+    let chain = &scene.line_types["chain"];
+    assert_eq!((chain.diameter, chain.mass, chain.ea, chain.ei), (0.16, 180.0, 7.5e8, 0.0));
+    assert_eq!((chain.drag.normal, chain.drag.tangential), (1.4, 0.4));
+    assert_eq!((chain.added_mass.normal, chain.added_mass.tangential), (1.0, 0.5));
+    assert_eq!((chain.submerged_weight, chain.buoyancy), (None, None), "the displacement is that of the diameter");
+    assert_close("bed under the chain", chain.seabed_stiffness.expect("a bed"), 3.0e6 * 0.16, 1e-14);
+    assert_close("damping of the bed", scene.environment.seabed.damping, 3.0e5 * 0.16, 1e-14);
+    // A negative BA is a share of 2 sqrt(k m) of a segment, halves of both: zeta l sqrt(EA m) for a segment of length l.
+    assert_close("of line 1", chain.damping, 0.8 * (279.0 / 28.0) * (7.5e8_f64 * 180.0).sqrt() / 7.5e8, 1e-12);
+    let other = &scene.line_types["chain (line 3)"];
+    assert_close("of line 3", other.damping, 0.8 * (431.0 / 43.0) * (7.5e8_f64 * 180.0).sqrt() / 7.5e8, 1e-12);
+    assert_close("given", scene.line_types["wire"].damping, 2.0e5 / 4.1e8, 1e-14);
+    let kinds: Vec<&str> = scene.lines.iter().map(|line| line.sections[0].line_type.as_str()).collect();
+    assert_eq!(kinds, ["chain", "wire", "chain (line 3)", "chain (line 3)"]);
+    assert_eq!(scene.lines[1].fairlead_on, Some(Mount::Body { body: "vessel".into(), at: [20.0, 0.0, -5.0], clamp: None }));
+    assert_eq!(scene.lines[1].anchor_on, Some(Mount::Point { point: "point7".into() }));
+    assert_eq!((scene.lines[0].anchor, &scene.lines[0].anchor_on), ([420.0, 0.0, -90.0], &None));
+    let knot = &scene.points[0];
+    assert_eq!((knot.position, knot.mass, knot.volume, knot.drag_area), ([150.0, 0.0, -60.0], 1500.0, 0.4, 0.8));
+    assert_close("added mass of the point", knot.added_mass, 0.6 * 1025.0 * 0.4, 1e-14);
+    assert_eq!((scene.environment.depth, scene.environment.gravity, scene.run.output_step), (90.0, 9.80665, 0.25));
+}
+
+/// A body has its own mass, that of points on it and the cylinders of its rods; a coupled one is a pose alone.
+#[test]
+fn a_body_is_put_together_from_points_and_rods() {
+    let loaded = deck("buoy.txt");
+    let scene = &loaded.scene;
+    let buoy = &scene.bodies[scene.body("body1").expect("the buoy")];
+    assert_eq!(buoy.mass, 14200.0);
+    let centre = [1.5 * 200.0 / 14200.0, 0.0, (2.0 * 200.0 - 8.5 * 14000.0) / 14200.0];
+    for (found, expected) in buoy.centre_of_mass.iter().zip(centre) {
+        assert!((found - expected).abs() < 1e-12, "{:?}", buoy.centre_of_mass);
+    }
+    // Two masses m, M at a distance have m M/(m + M) d² about their centre, across the line that joins them.
+    let reduced = 14000.0 * 200.0 / 14200.0;
+    let Some(Inertia::Full(inertia)) = &buoy.inertia else { panic!("{:?}", buoy.inertia) };
+    assert_close("Ixx", inertia[0][0], 1.2e4 + reduced * 10.5 * 10.5, 1e-12);
+    assert_close("Iyy", inertia[1][1], 1.2e4 + reduced * (10.5 * 10.5 + 1.5 * 1.5), 1e-12);
+    assert_close("Izz", inertia[2][2], 6.0e3 + reduced * 1.5 * 1.5, 1e-12);
+    assert_close("Ixz", inertia[0][2], -reduced * 10.5 * 1.5, 1e-12);
+    let hull = &buoy.cylinders[0];
+    assert_eq!((hull.from, hull.to, hull.diameter, hull.mass), ([0.0, 0.0, -9.0], [0.0, 0.0, 3.0], 3.0, 28800.0));
+    assert_eq!((hull.drag.normal, hull.drag.end, hull.added_mass.normal, hull.added_mass.end), (0.8, 1.1, 1.0, 0.6));
+    let half = 0.5 * 1025.0;
+    assert_eq!(buoy.quadratic_damping, Some([half, half, half, half * 20.0, half * 20.0, half * 20.0]));
+    let ship = &scene.bodies[scene.body("body2").expect("the ship")];
+    assert_eq!((ship.position, ship.attitude_deg, ship.mass), ([70.0, 0.0, 0.0], [0.0, 0.0, 180.0], 0.0));
+    assert_eq!(scene.lines[3].anchor, [50.0, ship.place(&[20.0, 0.0, 5.0]).y, 5.0], "the ship looks at the buoy");
+    assert_eq!(scene.environment.current.len(), 3);
+    assert_eq!((scene.environment.current[0].z, scene.environment.current[0].velocity), (0.0, [0.4, 0.05, 0.0]));
+    assert_eq!(scene.environment.seabed.friction, 0.3);
+    let hawser = &scene.line_types["hawser"];
+    assert_eq!(hawser.tension_strain.as_deref(), Some([[0.0, 0.0], [0.02, 1.0e4], [0.06, 6.0e4], [0.15, 3.0e5]].as_slice()));
+    assert_eq!((hawser.ea, hawser.damping), (2.0e6, 1.0e4 / 2.0e6), "EA of a table is that of its last row");
+}
+
+/// What the buoy weighs and the lines pull is what it displaces.
+#[test]
+fn the_buoy_floats_where_its_weight_and_its_lines_let_it() {
+    let loaded = deck("buoy.txt");
+    let (mooring, outputs) = settled(&loaded);
+    let bodies: Vec<_> = mooring.parts.iter().flat_map(|part| part.bodies()).collect();
+    let (_, pose) = bodies.iter().find(|(body, _)| loaded.scene.bodies[*body].is_free()).expect("the buoy");
+    let pull: f64 = outputs[..3].iter().map(|line| line.force.z).sum::<f64>() + outputs[3].force.z;
+    let weight = (14200.0 + 28800.0) * GRAVITY;
+    // The axis leans by pitch and roll; the wet length is along it.
+    let lean = pose.angles[0].cos() * pose.angles[1].cos();
+    let wet = 9.0 - pose.position.z / lean;
+    let buoyancy = 1025.0 * GRAVITY * std::f64::consts::FRAC_PI_4 * 9.0 * wet;
+    assert_close("buoyancy", buoyancy, weight - pull, 1e-3);
+}
+
+/// Source: MoorPy 1.3 on the same file (tests/peers/moordyn_decks.py). Its chain lies on a hard bed, ours and MoorDyn's sinks 3 mm into
+/// springs of kBot: 0.02 % of the tension.
+#[test]
+fn the_spread_has_the_tensions_of_moorpy() {
+    let (_, outputs) = settled(&read(SECOND));
+    let tensions = [(130910.68, 120397.53), (152229.29, 135464.90), (738680.18, 605936.24), (738680.18, 605936.24)];
+    for (number, (line, (fairlead, anchor))) in outputs.iter().zip(tensions).enumerate() {
+        assert_close(&format!("line {} fairlead", number + 1), line.tension, fairlead, 5e-4);
+        assert_close(&format!("line {} anchor", number + 1), line.anchor_tension, anchor, 5e-4);
+    }
+}
+
+/// Source: a beam with weight w per length and P at its end: wall moment w L²/2 + P L, deflection w L⁴/8EI + P L³/3EI; by 0.03 % less where
+/// it bends down by 2.3 % of its length.
+#[test]
+fn a_line_leaves_a_fixed_rod_along_it() {
+    let loaded = deck("cantilever.txt");
+    let (mooring, outputs) = settled(&loaded);
+    let (weight, end, length) = (15.4 * GRAVITY, 5.0 * GRAVITY, 4.0_f64);
+    let moment = weight * length.powi(2) / 2.0 + end * length;
+    let stiffness = 6.4e4;
+    let deflection = weight * length.powi(4) / (8.0 * stiffness) + end * length.powi(3) / (3.0 * stiffness);
+    let (_, tip) = mooring.parts[0].points()[0];
+    assert_close("deflection", 20.0 - tip.z, deflection, 2e-3);
+    assert_close("force on the wall", -outputs[0].anchor_force.z, weight * length + end, 1e-6);
+    assert!(moment > 1.4e3);
+}
+
+/// The weight of a chain that hangs free is all the tension at its top.
+#[test]
+fn a_chain_that_hangs_free_carries_its_weight() {
+    let text = "hanging\n--- LINE TYPES ---\nname d m EA BA EI Cd Ca CdAx CaAx\n(-) (m)\nchain 0.05 50 1e8 -1 0 1 1 0 0\n--- POINTS ---\nid\n(#)\n\
+                1 Fixed 0 0 -5 0 0 0 0\n2 Free 1 0 -55 0 0 0 0\n--- LINES ---\nid\n(#)\n1 chain 2 1 50 10 -\n--- OPTIONS ---\n200 WtrDpth\n";
+    let (_, outputs) = settled(&read(text));
+    let weight = 50.0 * (50.0 - 1025.0 * std::f64::consts::FRAC_PI_4 * 0.05 * 0.05) * GRAVITY;
+    assert_close("tension at the top", outputs[0].tension, weight, 1e-6);
+}
+
+/// What is wrong is said with file, line, the line itself and what is expected.
+#[test]
+fn every_fault_is_named_with_its_line_and_what_is_expected() {
+    let faults: &[(&str, &str, &[&str])] = &[
+        (
+            "1     chain      1        7        279.0     28       p",
+            "1 chain 1 7 279.0",
+            &["line 21", "5 of the 6 values", "segments"],
+        ),
+        ("431.0     43       pt", "431.0     0       pt", &["line 23", "segments", "\"0\"", "whole number from 1"]),
+        ("431.0     43       pt", "long     43       pt", &["line 23", "unstretched length", "\"long\"", "a number"]),
+        ("431.0     43       pt", "-431.0     43       pt", &["line 23", "greater than 0"]),
+        ("3     chain      3        4", "3     chian      3        4", &["line 23", "line type", "did you mean `chain`"]),
+        ("3     chain      3        4", "3     chain      3        9", &["line 23", "`point 9`", "`7`"]),
+        ("3     chain      3        4", "3     chain      3        R1A", &["line 23", "there is no `rod 1`"]),
+        ("3     chain      3        4", "3     chain      3        x", &["line 23", "end of the line", "R1A"]),
+        ("3     chain      3        4", "3     chain      3        3", &["line 23", "both are on one place"]),
+        ("3     chain      3        4", "2     chain      3        4", &["line 23", "line: 2 stands twice, first in line 22"]),
+        ("4.1e8      2.0e5", "4.1e8", &["line 7", "9 of the 10 values", "CaAx"]),
+        ("4.1e8      2.0e5", "4.1e8|5e8   2.0e5", &["line 7", "EA", "static and a dynamic"]),
+        ("4.1e8      2.0e5", "rope.txt   2.0e5", &["rope.txt"]),
+        ("4.1e8      2.0e5", "soft   2.0e5", &["line 7", "EA", "\"soft\""]),
+        ("wire       0.08", "wire       0", &["line 7", "diameter", "greater than 0"]),
+        ("wire       0.08", "chain       0.08", &["line 7", "chain stands twice, first in line 6"]),
+        ("1.2    1.0    0.05    0.0\n", "1.2    1.0    0.05    0.0 0.7\n", &["line 7", "Cl", "vortex"]),
+        ("420.0   0.0     -90.0", "420.0   O.0     -90.0", &["line 11", "Y", "\"O.0\"", "a number"]),
+        ("1500.0 0.4     0.8    0.6", "1500.0 0.4", &["line 17", "7 of the 9 values"]),
+        ("1500.0 0.4     0.8", "-1500.0 0.4     0.8", &["line 17", "mass", "not negative"]),
+        ("7     Free ", "7     Fre ", &["line 17", "`Fre`", "did you mean `Free`"]),
+        ("7     Free ", "7     Pinned ", &["line 17", "a hinge is not modelled"]),
+        ("7     Free ", "7     Turbine2 ", &["line 17", "FAST.Farm"]),
+        ("7     Free ", "7     Body1 ", &["line 17", "there is no `body 1`"]),
+        ("7     Free ", "0     Free ", &["line 17", "point", "whole number greater than 0"]),
+        ("90      WtrDpth", "deep.txt      WtrDpth", &["deep.txt"]),
+        ("90      WtrDpth", "90      WtrDpht", &["line 30", "option", "did you mean `wtrdpth`"]),
+        ("90      WtrDpth    water depth (m)", "90", &["line 30", "1 of the 2 values"]),
+        ("90      WtrDpth", "nan      kBot", &["line 30", "kBot", "finite"]),
+        ("90      WtrDpth", "2      WaveKin", &["line 30", "WaveKin", "environment.waves"]),
+        ("90      WtrDpth", "3      Currents", &["line 30", "Currents", "profile"]),
+        ("90      WtrDpth", "0.4      MU_KT", &["line 30", "MU_KT, MU_KA"]),
+        ("(#)   (word/ID)   (m)     (m)     (m)     (kg)   (m^3)   (m^2)  (-)\n", "", &["line 10", "units of the columns"]),
+        ("---------------------- LINES ---", "---------------------- POINTS ---", &["line 18", "stands twice, first in line 8"]),
+        ("---------------------- LINES ---", "---------------------- ROPES ---", &["without a section LINES"]),
+        (
+            "---------------------- OUTPUTS",
+            "---- FAILURE ----\na\n(b)\n1 5 1 0 1e6\n---------------------- OUTPUTS",
+            &["line 38", "breaking_load"],
+        ),
+    ];
+    for (from, to, parts) in faults {
+        let message = message(&edited(from, to));
+        println!("{message}");
+        assert!(message.starts_with("deck.txt") || message.contains(parts[0]), "{from} -> {to}: {message}");
+        for part in *parts {
+            assert!(message.contains(part), "{from} -> {to}: {message:?} has no {part:?}");
+        }
+    }
+}
+
+/// What changes nothing that matters is a warning.
+#[test]
+fn what_is_left_out_is_told() {
+    let warnings = read(SECOND).warnings.join("\n");
+    for part in ["dtM, TmaxIC, threshIC: of MoorDyn's own time stepping", "cBot: damping of the bed is one for all lines here"] {
+        assert!(warnings.contains(part), "{part}: {warnings}");
+    }
+    let told = |from: &str, to: &str, part: &str| {
+        let warnings = read(&edited(from, to)).warnings.join("\n");
+        assert!(warnings.contains(part), "{part}: {warnings}");
+    };
+    told("90      WtrDpth", "80      WtrDpth", "line 11: the depth is 90 m, that of point 1");
+    told("90      WtrDpth", "90      WtrDpth\n1 WaveKin", "WaveKin 1 takes waves from a calling program");
+    told("90      WtrDpth", "90      WtrDpth\n7 colour", "line 31: colour is no option that is known");
+    told("ANCHTEN3", "ANCHTEN3 ROD1SUB", "OUTPUTS: ROD1SUB: columns that are not written");
+    told("7     Free ", "8     Free 0 0 -10 1 0 0 0\n7     Free ", "no line leads to point8");
+    told("Cd     Ca     CdAx    CaAx", "Can   Cat   Cdn   Cdt", "version 2 reads Cd, Ca, CdAx, CaAx by their place");
+    told("420.0   0.0     -90.0   0 ", "420.0   0.0     -90.0   5 ", "line 11: mass and volume of a point that is held");
+}
+
+/// A bed that a grid describes as a plane is a plane, in both forms of the file; another one is refused by how far it is off.
+#[test]
+fn a_grid_of_depths_that_is_a_plane_is_a_slope() {
+    let place = program::directory("grids");
+    let deck = |grid: &str, option: &str| {
+        std::fs::write(place.join("bed.txt"), grid).expect("written");
+        let text = edited("90      WtrDpth", option).replace("-90.0", "-70.0");
+        parse(&text, "deck.txt", &place, &[])
+    };
+    // z = -90 + 0.02 x.
+    let old = "----- MoorDyn Bathymetry Input File ----\nnGridX 2\nnGridY 2\n -1000 500\n-400 110 80\n400 110 80\n";
+    let new = "2 2\n-1000 500\n-400 400\n-1000 -400 -110\n-1000 400 -110\n500 -400 -80\n500 400 -80\n";
+    for (grid, option) in [(old, "\"bed.txt\" WtrDpth"), (new, "bed.txt SeafloorFile")] {
+        let scene = deck(grid, option).unwrap_or_else(|error| panic!("{error}")).scene;
+        assert_close("depth", scene.environment.depth, 90.0, 1e-12);
+        assert_close("slope", scene.environment.seabed.slope_deg[0].to_radians().tan(), 0.02, 1e-12);
+        assert!(scene.environment.seabed.slope_deg[1].abs() < 1e-12);
+    }
+    let refused = deck(&new.replace("500 400 -80", "500 400 -70"), "bed.txt SeafloorFile").expect_err("a hill").to_string();
+    assert!(refused.contains("2.500 m off a plane"), "{refused}");
+}
+
+/// The commands take a deck where they take a scene.
+#[test]
+fn every_command_takes_a_deck() {
+    let place = program::directory("commands");
+    for name in ["spread-v2.txt", "buoy.txt", "rope.dat", "current_profile.txt"] {
+        std::fs::copy(directory().join(name), place.join(name)).expect("copied");
+    }
+    let done = |arguments: &[&str]| {
+        let output = program::moorline(&place, arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    for name in ["spread-v2.txt", "buoy.txt"] {
+        done(&["check", name]);
+        done(&["run", name, "-o", "out", "--set", "run.duration=1.0"]);
+        let rows = program::read(&place.join("out/timeseries.csv"));
+        assert!(rows.lines().next().is_some_and(|names| names.contains("line1.tension")), "{rows}");
+        assert!(rows.lines().last().is_some_and(|row| row.starts_with("1,") || row.starts_with("1.0")), "{rows}");
+        if name == "spread-v2.txt" {
+            // The channels of the deck, by its names, are the columns of timeseries.csv.
+            let out = program::read(&place.join("out/spread-v2.out"));
+            let cells = |text: &str, part: char| text.split(part).map(str::to_owned).collect::<Vec<_>>();
+            let lines: Vec<&str> = out.lines().collect();
+            assert_eq!(cells(lines[0], '\t'), ["Time", "FAIRTEN1", "FAIRTEN2", "ANCHTEN3"]);
+            assert_eq!(cells(lines[1], '\t'), ["(s)", "(N)", "(N)", "(N)"]);
+            assert_eq!(lines.len() - 2, rows.lines().count() - 1);
+            let names = cells(rows.lines().next().unwrap_or_default(), ',');
+            for (column, name) in [(1, "line1.tension"), (2, "line2.tension"), (3, "line3.anchor_tension")] {
+                let at = names.iter().position(|own| own == name).expect("a column");
+                let own: f64 = cells(rows.lines().last().unwrap_or_default(), ',')[at].parse().expect("a number");
+                let found: f64 = cells(lines[lines.len() - 1], '\t')[column].parse().expect("a number");
+                assert_close(name, found, own, 1e-7);
+            }
+        }
+        // The JSON scene says what the deck says.
+        done(&["convert", name, "scene.json"]);
+        let (own, converted) = (load(&place.join(name), &[]), load(&place.join("scene.json"), &[]));
+        let scene = |loaded: Result<Loaded, _>| loaded.unwrap_or_else(|error: moorline::error::Error| panic!("{error}")).scene;
+        assert_eq!(scene(own), scene(converted));
+        let json: Value = serde_json::from_str(&done(&["statics", name, "--json"])).expect("JSON");
+        assert_eq!(json["converged"], json!(true));
+    }
+}
+
+/// What `convert` writes is the scene again: statics of examples of every kind are the same, to the difference of their meshes and of a bed
+/// that is one for all lines.
+#[test]
+fn a_scene_and_its_deck_have_the_same_tensions() {
+    let place = program::directory("written");
+    let examples = [
+        ("calm-buoy", 1e-4),
+        ("calm-line", 1e-4),
+        ("clump-weight", 1e-4),
+        ("crowfoot", 1e-4),
+        ("lazy-wave", 1e-4),
+        ("lindahl-sjoberg", 1e-4),
+        ("riser-with-bending", 1e-4),
+        ("semi-submersible", 1e-4),
+        ("spread-moored-ship", 1e-4),
+        ("taut-polyester", 1e-4),
+        ("two-lines-in-current", 1e-4),
+        ("wave-energy-floats", 1e-4),
+    ];
+    for (name, tolerance) in examples {
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(format!("{name}.json"));
+        let own = load(&scene, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let deck = place.join(format!("{name}.txt"));
+        let output = program::moorline(&place, &["convert", &scene.display().to_string(), &deck.display().to_string()]);
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let written = load(&deck, &[]).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let (tops, found) = (settled(&own).1, settled(&written).1);
+        // Pieces of a line follow each other from its fairlead; the first of each has its tension.
+        let whole = own.scene.lines.len() == written.scene.lines.len();
+        let lines = &written.scene.lines;
+        let goes_on = |index: usize| {
+            index > 0 && lines[index].fairlead_on.is_some() && lines[index - 1].anchor_on == lines[index].fairlead_on
+        };
+        let mut first = found.iter().enumerate().filter(|(index, _)| whole || !goes_on(*index));
+        for line in &tops {
+            let (_, other) = first.next().unwrap_or_else(|| panic!("{name}: a line is lost"));
+            assert_close(name, other.tension, line.tension, tolerance);
+        }
+    }
+}
+
+/// A deck of the buoy, with its table, current and products of inertia apart, means the same scene as the deck that it came from; a slope goes
+/// into a grid and back.
+#[test]
+fn a_deck_is_written_as_it_is_read() {
+    let place = program::directory("again");
+    for name in ["buoy.txt", "rope.dat", "current_profile.txt"] {
+        std::fs::copy(directory().join(name), place.join(name)).expect("copied");
+    }
+    let convert = |from: &str, to: &str| {
+        let output = program::moorline(&place, &["convert", from, to]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let told = convert("buoy.txt", "again.txt");
+    assert!(told.contains("products of inertia") && told.contains("again.hawser.dat is beside it"), "{told}");
+    let (one, other) = (load(&place.join("buoy.txt"), &[]), load(&place.join("again.txt"), &[]));
+    let scene = |loaded: Result<Loaded, moorline::error::Error>| {
+        let mut scene = loaded.unwrap_or_else(|error| panic!("{error}")).scene;
+        scene.line_types.values_mut().for_each(|of| of.damping = (of.damping * 1e12).round());
+        scene.environment.seabed.damping = scene.environment.seabed.damping.round();
+        for body in &mut scene.bodies {
+            body.inertia =
+                body.inertia.as_ref().map(|inertia| Inertia::Principal(inertia.matrix().diagonal().map(|x| x.round()).into()));
+            body.quadratic_damping = body.quadratic_damping.map(|drag| drag.map(f64::round));
+        }
+        scene
+    };
+    assert_eq!(scene(one), scene(other));
+
+    let sloping = edited("90      WtrDpth", "90      WtrDpth").replace("-90.0", "-70.0");
+    let mut value = without_title(&parse(&sloping, "deck.txt", &place, &[]).unwrap_or_else(|error| panic!("{error}")));
+    value["environment"]["seabed"]["slope_deg"] = json!([1.0, -0.5]);
+    std::fs::write(place.join("slope.json"), value.to_string()).expect("written");
+    convert("slope.json", "slope.txt");
+    let bed = load(&place.join("slope.txt"), &[]).unwrap_or_else(|error| panic!("{error}")).scene.environment;
+    assert_close("depth", bed.depth, 90.0, 1e-9);
+    assert_close("slope along x", bed.seabed.slope_deg[0], 1.0, 1e-9);
+    assert_close("slope along y", bed.seabed.slope_deg[1], -0.5, 1e-9);
+
+    // What cannot be held is refused by its place.
+    let output =
+        program::moorline(&place, &["convert", concat!(env!("CARGO_MANIFEST_DIR"), "/examples/moored-buoy.json"), "no.txt"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(told.contains("lines[0].constraints") && told.contains("a MoorDyn file cannot hold this"), "{told}");
+}
