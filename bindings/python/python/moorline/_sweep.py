@@ -338,9 +338,9 @@ def _drive(
         while given:
             future = next(arrived)
             rows = given.pop(future)
-            block = None
+            block, failure = None, Exception()
             try:
-                block, failure = future.result(), None
+                block = future.result()
             except Exception as error:  # noqa: BLE001 - also of a worker that dies with what it has computed
                 failure = error
             if block is not None:
