@@ -94,7 +94,7 @@ fn fairlead_variation(end: &End, line: &BuiltLine, cutoff: f64, direction: [[f64
 
 /// Displacement [m] by which a group is moved to and fro to differentiate its steps,
 const SHARE: f64 = 1.0e-2;
-/// and at most, as a share of its shortest line: a short one is stiff.
+/// and at most to differentiate equilibria, as a share of its shortest line: a short one is stiff.
 const SLIGHT: f64 = 1.0e-5;
 /// Force that counts as a displacement of one metre [N].
 const FORCE: f64 = 1.0e5;
@@ -124,17 +124,22 @@ impl Built {
         let Built { lines, groups, vessels, conventions, filter, .. } = self;
         let group = &mut groups[number];
         let members: Vec<usize> = group.together().lines.clone();
-        let shortest = members.iter().map(|index| lines[*index].limits.length).fold(f64::INFINITY, f64::min);
-        let clamped = group.together().clamped;
+        // An equilibrium is found more closely than a step is solved.
+        let (most, least_arm) = match when {
+            When::Step(_) => (SHARE, 0.0),
+            When::Rest(_) => {
+                let shortest = members.iter().map(|index| lines[*index].limits.length).fold(f64::INFINITY, f64::min);
+                // Turning a clamp bends the line at once.
+                (SHARE.min(SLIGHT * shortest), if group.together().clamped { shortest } else { 0.0 })
+            }
+        };
         let mut size = f64::MIN_POSITIVE;
         for index in &members {
             directions.lines[*index].iter().flatten().for_each(|x| size = size.max(x.abs()));
         }
         for (of, vessel) in directions.bodies.iter().zip(vessels.iter()) {
             for (part, values) in of.iter().enumerate() {
-                // Turning a clamp bends the line at once.
-                let arm = if clamped { vessel.arm.max(shortest) } else { vessel.arm };
-                let scale = if part % 2 == 1 { arm } else { 1.0 };
+                let scale = if part % 2 == 1 { vessel.arm.max(least_arm) } else { 1.0 };
                 values.iter().for_each(|x| size = size.max(x.abs() * scale));
             }
         }
@@ -185,7 +190,7 @@ impl Built {
                 }
             }
         };
-        let share = SHARE.min(SLIGHT * shortest) / size;
+        let share = most / size;
         match when {
             When::Step(until) => group.derivative(until, share, drive),
             When::Rest(time) => group.static_derivative(time, share, drive),
