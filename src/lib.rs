@@ -99,8 +99,11 @@ pub mod sea {
     pub mod drawing;
     pub mod figures;
     pub mod near;
+    pub mod random;
     pub mod series;
     pub mod spectrum;
+    pub mod spreading;
+    pub mod stretching;
     pub mod wave;
     pub mod waves;
 }

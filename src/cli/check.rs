@@ -9,6 +9,7 @@ use crate::scene::read::Loaded;
 use crate::scene::types::{Environment, Motion, Scene};
 use crate::sea::drawing;
 use crate::sea::figures::Figures;
+use crate::sea::wave::Wave;
 use crate::solve::motion::Ends;
 use crate::solve::partition::{self, Together};
 use crate::solve::simulation::{Decision, Simulation};
@@ -35,7 +36,7 @@ pub fn check(arguments: &SceneArguments) -> Result<(), Stop> {
     };
     let lines: Vec<Simulation> = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, _>>()?;
     let mut text = header(&loaded);
-    text += &sea(&loaded.scene);
+    text += &seas(&loaded.scene);
     text += &coupling(&loaded.scene, &parts);
     for (line, simulation) in loaded.scene.lines.iter().zip(&lines) {
         let _ = writeln!(text, "\nLine \"{}\": {} m", on_terminal(&line.name), line.length());
@@ -60,17 +61,37 @@ fn header(loaded: &Loaded) -> String {
     format!("{title}{}: a good scene; {}, {motion}\n", on_terminal(&loaded.file), count(scene.lines.len(), "line"))
 }
 
-/// What the sea is, computed back from its components; nothing where it is calm.
-fn sea(scene: &Scene) -> String {
-    let Environment { gravity, depth, waves, .. } = &scene.environment;
-    let Some(waves) = waves.as_ref().map(|waves| drawing::drawn(waves).waves) else { return String::new() };
-    let Some(sea) = Figures::of(&waves, *gravity, *depth) else { return String::new() };
+/// What each sea is, computed back from its components; nothing where it is calm.
+fn seas(scene: &Scene) -> String {
+    let Some(seas) = &scene.environment.waves else { return String::new() };
+    let drawn = drawing::seas(seas);
+    let several = drawn.len() > 1;
+    let mut text = String::new();
+    for (index, (given, drawn)) in seas.each().iter().zip(&drawn).enumerate() {
+        let name = if several { format!("Sea {}", index + 1) } else { String::from("Sea") };
+        text += &sea(&scene.environment, &name, &drawn.waves);
+        if let Some(spreading) = given.spreading() {
+            let s = spreading.exponent();
+            let deviation = (2.0 / (1.0 + s)).sqrt().to_degrees();
+            let _ = writeln!(text, "     spread over {} directions, s {s:.2}, standard deviation {deviation:.1} deg", spreading.directions);
+        }
+    }
+    if several {
+        let all: Vec<Wave> = drawn.into_iter().flat_map(|sea| sea.waves).collect();
+        text += &sea(&scene.environment, "All seas", &all);
+    }
+    text
+}
+
+/// What components make.
+fn sea(environment: &Environment, name: &str, waves: &[Wave]) -> String {
+    let Some(sea) = Figures::of(waves, environment.gravity, environment.depth) else { return String::new() };
     let Figures { height, period, band: [low, high], length, steepness, steepest } = sea;
     let (symbol, of) = if waves.len() == 1 { (["H", "T"], "a wave") } else { (["Hs", "Tp"], "a sea") };
     let [h, t] = symbol;
     let band = if waves.len() == 1 { String::new() } else { format!(", components from {low:.4} to {high:.4} Hz (cut-off)") };
     let mut text = format!(
-        "\nSea: {h} {height:.3} m, {t} {period:.2} s{band}; a wave of {t} is {length:.1} m long, steepness {h}/L {steepness:.4}\n"
+        "\n{name}: {h} {height:.3} m, {t} {period:.2} s{band}; a wave of {t} is {length:.1} m long, steepness {h}/L {steepness:.4}\n"
     );
     if sea.breaks() {
         let _ = writeln!(

@@ -1,7 +1,7 @@
 //! The part `environment` of a scene: water, seabed and gravity.
 
 use crate::scene::types::vector::Triple;
-use crate::scene::types::waves::Waves;
+use crate::scene::types::waves::Seas;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,9 +26,9 @@ pub struct Environment {
     /// Current profile: velocity at rising or falling z, piecewise linear, held constant outside the table. Default: none.
     #[serde(default)]
     pub current: Vec<CurrentPoint>,
-    /// Waves. The equilibrium at the start is that of calm water. Default: none.
+    /// Waves: a sea, or a list of seas that meet. The equilibrium at the start is that of calm water. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub waves: Option<Waves>,
+    pub waves: Option<Seas>,
     /// What the water surface does to a line. Default `pierced`.
     #[serde(default)]
     pub surface: Surface,
