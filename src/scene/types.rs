@@ -15,7 +15,7 @@ mod vector;
 mod waves;
 
 use crate::scene::bodies::{Body, Point};
-pub use environment::{CurrentPoint, Environment, Seabed, Surface};
+pub use environment::{CurrentOverTime, CurrentPoint, Environment, Seabed, Surface};
 pub use line::{Line, SAME_PLACE, Section};
 pub use line_type::{InnerFluid, LineType, NormalTangential};
 pub use motion::Motion;

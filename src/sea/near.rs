@@ -244,7 +244,13 @@ impl Near {
     }
 
     /// Adds the sums of velocities and accelerations at levels that are known already, below places in rows x and y [m].
-    pub fn add_motions(&self, time: f64, places: &[[f64; MOST_LANES]; 3], levels: &[Level<f64>], to: &mut [[f64; MOST_LANES]; 6]) {
+    pub fn add_motions(
+        &self,
+        time: f64,
+        places: &[[f64; MOST_LANES]; 3],
+        levels: &[Level<f64>],
+        to: &mut [[f64; MOST_LANES]; 6],
+    ) {
         let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         self.plan.processor.dispatch(Motions { plan: &self.plan, memory: &mut memory, time, places, levels, to });
     }

@@ -37,7 +37,8 @@ pub fn directions(s: f64, count: usize) -> Vec<f64> {
         })
         .collect();
     // The factor by which the mean of cos θ becomes r₁, by halving.
-    let mean = |factor: f64| (2.0 * side.iter().map(|angle| (factor * angle).cos()).sum::<f64>() + (count % 2) as f64) / count as f64;
+    let mean =
+        |factor: f64| (2.0 * side.iter().map(|angle| (factor * angle).cos()).sum::<f64>() + (count % 2) as f64) / count as f64;
     let furthest = side.last().copied().unwrap_or(PI);
     let (mut low, mut high) = (0.5, (PI / furthest).min(3.0));
     for _ in 0..60 {

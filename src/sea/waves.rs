@@ -19,17 +19,20 @@ use crate::algebra::lanes::Lanes;
 use crate::algebra::real::Across;
 use crate::algebra::real::{MOST_LANES, Real, padded};
 use crate::algebra::shape::Shape;
+use crate::algebra::stokes::{ORDER, Stokes};
 use crate::algebra::triple::Triple;
 use crate::scene::types::{Environment, Stretching};
 use crate::sea::clock::Clock;
 use crate::sea::drawing::{self, Drawn};
 use crate::sea::near::{Member, Near, Water};
 use crate::sea::series::{DECAYED, cos_sin, decay};
+use crate::sea::stream::Stream;
 use crate::sea::stretching::Level;
 use crate::sea::wave::{Wave, wave_number};
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Motion of the water.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +52,11 @@ pub struct Waves {
     rows: [Vec<f64>; ROWS],
     /// Components that are summed by cells, one direction each.
     near: Vec<Near>,
+    /// The current that they run on, where it changes in time.
+    stream: Option<Arc<Stream>>,
     stretching: Stretching,
+    /// The motion holds up to the crest as it stands, without stretching.
+    whole: bool,
     mean: (f64, f64),
     depth: f64,
     gravity: f64,
@@ -96,11 +103,22 @@ const MOST_DIRECTIONS: usize = 1000;
 const RARE: f64 = 10.0;
 
 impl Waves {
-    /// The waves of an environment.
+    /// The waves of an environment, and the current that they run on where it changes in time.
     pub fn of(environment: &Environment) -> Option<Waves> {
+        let rows = environment.current_over_time.as_ref().and_then(|current| current.rows.as_deref());
+        let Some(stream) = rows.and_then(Stream::new) else { return Waves::of_seas(environment) };
+        let calm = || Waves::new(&[], environment.gravity, environment.depth, 0.0);
+        Some(Waves { stream: Some(Arc::new(stream)), ..Waves::of_seas(environment).unwrap_or_else(calm) })
+    }
+
+    fn of_seas(environment: &Environment) -> Option<Waves> {
         let seas = environment.waves.as_ref()?;
-        let drawn: Vec<Drawn> = drawing::seas(seas).into_iter().filter(|sea| !sea.waves.is_empty()).collect();
+        let drawn: Vec<Drawn> =
+            drawing::seas(environment).into_iter().filter(|sea| !sea.waves.is_empty() || sea.steady.is_some()).collect();
         let ramp = drawn.iter().map(|sea| sea.ramp).fold(0.0, f64::max);
+        if let Some((stokes, angles)) = drawn.iter().find_map(|sea| sea.steady.as_ref()) {
+            return Some(Waves::steady(stokes, *angles, environment.gravity, environment.depth, ramp));
+        }
         let crest = drawn.iter().map(|sea| {
             let all = sea.waves.iter().map(|wave| wave.amplitude).sum::<f64>();
             if sea.random { all.min(RARE * deviation(&sea.waves)) } else { all }
@@ -120,19 +138,35 @@ impl Waves {
         Waves::summed(waves.to_vec(), gravity, depth, ramp, Stretching::Wheeler, true)
     }
 
+    /// A steady wave of the fifth order, of a direction and a phase [rad]: its harmonics are bound, and hold up to the crest as they stand.
+    pub fn steady(wave: &Stokes, [direction, phase]: [f64; 2], gravity: f64, depth: f64, ramp: f64) -> Waves {
+        let mut sea = Waves::summed(Vec::new(), gravity, depth, ramp, Stretching::Wheeler, false);
+        sea.rows = std::array::from_fn(|_| vec![0.0; padded(ORDER) + MOST_LANES]);
+        for n in 0..ORDER {
+            let harmonic = (n + 1) as f64;
+            let of = Wave { amplitude: wave.elevations[n], omega: harmonic * wave.omega, direction, phase: harmonic * phase };
+            let numbers = of.moving_at(harmonic * wave.number, wave.speeds[n], depth);
+            sea.rows.iter_mut().zip(numbers).for_each(|(row, number)| row[n] = number);
+        }
+        sea.crest = wave.elevations.iter().map(|elevation| elevation.abs()).sum();
+        (sea.count, sea.whole, sea.height, sea.longest) = (ORDER, true, 2.0 * sea.crest, wave.number);
+        sea.mean = (wave.omega, wave.number);
+        sea
+    }
+
     /// The same sea, carried to the surface in another way.
     pub fn stretched(self, stretching: Stretching) -> Waves {
         if stretching == self.stretching {
             return self;
         }
-        let Waves { crest, gravity, depth, ramp, .. } = self;
-        Waves { crest, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, true) }
+        let Waves { crest, gravity, depth, ramp, stream, .. } = self;
+        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, true) }
     }
 
     /// The same sea with its components summed one by one everywhere: what sums by cells are judged by.
     pub fn one_by_one(self) -> Waves {
-        let Waves { crest, gravity, depth, ramp, stretching, .. } = self;
-        Waves { crest, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, false) }
+        let Waves { crest, gravity, depth, ramp, stretching, stream, .. } = self;
+        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, false) }
     }
 
     /// A sea whose directions are summed by cells, each where it has enough components and cells are allowed.
@@ -153,8 +187,7 @@ impl Waves {
                 }
             });
             for direction in directions {
-                let own: Vec<(f64, &Wave)> =
-                    numbered.iter().filter(|(_, wave)| wave.direction == direction).copied().collect();
+                let own: Vec<(f64, &Wave)> = numbered.iter().filter(|(_, wave)| wave.direction == direction).copied().collect();
                 let members = members(&rows_of(&own, depth), own.len());
                 if let Some(by_cells) = Near::new(&members, Water { gravity, depth, height, direction, stretching }) {
                     near.push(by_cells);
@@ -163,7 +196,23 @@ impl Waves {
             }
         }
         let (count, rows) = (numbered.len(), rows_of(&numbered, depth));
-        Waves { count, rows, near, stretching, mean, depth, gravity, ramp, crest, height, longest, waves, processor: Arch::new() }
+        Waves {
+            count,
+            rows,
+            near,
+            stream: None,
+            stretching,
+            whole: false,
+            mean,
+            depth,
+            gravity,
+            ramp,
+            crest,
+            height,
+            longest,
+            waves,
+            processor: Arch::new(),
+        }
     }
 
     /// Whether all components are summed by cells rather than one by one.
@@ -173,7 +222,7 @@ impl Waves {
 
     /// Number of components.
     pub fn components(&self) -> usize {
-        self.waves.len()
+        if self.whole { self.count } else { self.waves.len() }
     }
 
     /// The mean frequency √(m₂/m₀) of the waves by energy [rad/s], and the wave number that goes with it [1/m].
@@ -235,6 +284,34 @@ impl Waves {
     /// The motion of the water at places, or none where it is at rest. One place alone is better asked for with `f64`.
     #[inline(always)]
     pub fn flow<F: Real>(&self, cpu: F::Cpu, clock: &Clock, place: &Triple<F>) -> Option<Flow<F>> {
+        let waves = self.flow_of_waves(cpu, clock, place);
+        if self.stream.is_none() {
+            return waves;
+        }
+        let [vx, vy, vz, ax, ay, az] = &self.streams_at(F::LANES, clock.now, place.z.lanes());
+        // At rest the current is that of the start, as if it had always been.
+        let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
+        let (velocity, acceleration) = (Triple::load(cpu, [vx, vy, vz], 0), Triple::load(cpu, [ax, ay, az], 0).scale(moving));
+        Some(match waves {
+            Some(flow) => Flow { velocity: velocity + flow.velocity, acceleration: acceleration + flow.acceleration },
+            None => Flow { velocity, acceleration },
+        })
+    }
+
+    /// The current that changes in time at `count` heights.
+    #[inline(never)]
+    fn streams_at(&self, count: usize, time: f64, heights: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 6] {
+        let mut rows = [[0.0; MOST_LANES]; 6];
+        for (lane, z) in heights.into_iter().enumerate().take(count) {
+            let Some(stream) = &self.stream else { break };
+            let (v, a): (Triple<f64>, Triple<f64>) = stream.flow((), time, z);
+            rows.iter_mut().zip([v.x, v.y, v.z, a.x, a.y, a.z]).for_each(|(row, number)| row[lane] = number);
+        }
+        rows
+    }
+
+    #[inline(always)]
+    fn flow_of_waves<F: Real>(&self, cpu: F::Cpu, clock: &Clock, place: &Triple<F>) -> Option<Flow<F>> {
         let (easing, rise) = self.easing(clock);
         if easing == 0.0 || !(place.z + -self.floor()).any_positive() {
             return None;
@@ -296,7 +373,12 @@ impl Waves {
     ) -> ([F; 3], [F; 3]) {
         let zero = F::splat(cpu, 0.0);
         let elevation = elevation.unwrap_or_else(|| self.elevations::<F, PLACES>(cpu, time, place) * easing);
-        let level = self.stretching.level(cpu, place.z, elevation, self.depth);
+        let level = if self.whole {
+            let z = place.z.min(elevation).max(F::splat(cpu, -self.depth));
+            Level { z, above: zero, share: zero }
+        } else {
+            self.stretching.level(cpu, place.z, elevation, self.depth)
+        };
         let Level { z, above, share } = level;
         let carried = above.any_positive();
         let [mut vx, mut vy, mut vz, mut ax, mut ay, mut az] = [zero; 6];
@@ -394,9 +476,14 @@ fn deviation(waves: &[Wave]) -> f64 {
 impl Wave {
     /// The row entries of a wave of number k [1/m].
     fn numbers(&self, k: f64, depth: f64) -> [f64; ROWS] {
+        self.moving_at(k, self.amplitude * self.omega, depth)
+    }
+
+    /// The same of a wave whose upright speed at still water is given [m/s].
+    fn moving_at(&self, k: f64, speed: f64, depth: f64) -> [f64; ROWS] {
         let (sin, cos) = self.direction.sin_cos();
         let echo = if k * depth < DECAYED { (-2.0 * k * depth).exp() } else { 0.0 };
-        let speed = self.amplitude * self.omega / if echo > 0.0 { -(-2.0 * k * depth).exp_m1() } else { 1.0 };
+        let speed = speed / if echo > 0.0 { -(-2.0 * k * depth).exp_m1() } else { 1.0 };
         let turn = 1.0 / TAU;
         [
             k * cos * turn,

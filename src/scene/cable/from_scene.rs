@@ -325,6 +325,9 @@ impl Losses {
         self.add(environment.surface == Surface::Pierced, || {
             String::from("environment.surface: a line above the water keeps its buoyancy and drag there (\"none\")")
         });
+        self.add(environment.current_over_time.is_some(), || {
+            String::from("environment.current_over_time: a file holds a current that does not change; there is none in it")
+        });
         match only_wave(scene) {
             Some(Waves::Regular { phase_deg, ramp, .. }) => {
                 self.add(*phase_deg != 0.0, || format!("environment.waves.phase_deg: {phase_deg} becomes 0"));

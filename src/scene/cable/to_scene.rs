@@ -198,6 +198,7 @@ fn environment(deck: &Deck, stiffness: Option<f64>) -> Environment {
         depth: -deck.bottom,
         seabed: Seabed { stiffness, ..Seabed::default() },
         current,
+        current_over_time: None,
         waves: waves.map(Seas::One),
         surface: Surface::None,
     }

@@ -1,11 +1,15 @@
 //! Rules on waves, and a warning of those that would break.
 
+use crate::algebra::stokes::{self, Stokes};
 use crate::error::Error;
 use crate::scene::check::finding::{finite, not_negative, number, positive, refuse};
+use crate::scene::elevation_file::{Fault, Record};
 use crate::scene::types::{OchiHubblePart, Scene, Spreading, Stretching, Waves};
 
 /// Most components of a sea.
 const MOST_COMPONENTS: usize = 5000;
+/// Most components of a record of an elevation.
+const MOST_OF_A_RECORD: usize = 50_000;
 
 /// Numbers of the right sign in every sea, one stretching for all, and a surface that stays above the bed.
 pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
@@ -19,6 +23,13 @@ pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
     for (index, waves) in seas.each().iter().enumerate() {
         let place = seas.place(index);
         let (key, down) = sea(waves, &place, file)?;
+        if let Waves::Regular5th { height, period, .. } = waves {
+            steep(scene, *height, *period, &place, file)?;
+            if seas.each().len() > 1 {
+                let allowed = "a wave of the fifth order does not add to others; give it alone, or all waves by linear theory";
+                return refuse(file, place, "\"regular-5th\" in a list of seas", allowed);
+            }
+        }
         if waves.stretching().is_some_and(|own| own != shared) {
             let allowed = format!(
                 "the seas of a list make one surface and have one stretching, and another of them has \"{}\"",
@@ -65,6 +76,13 @@ fn sea(waves: &Waves, place: &str, file: &str) -> Result<(&'static str, f64), Er
             one("", *amplitude, *period, *direction_deg, *phase_deg)?;
             ("amplitude", *amplitude, ramp)
         }
+        Waves::Regular5th { height, period, direction_deg, phase_deg, ramp } => {
+            positive(file, &at("height"), *height, "m")?;
+            positive(file, &at("period"), *period, "s")?;
+            finite(file, &at("direction_deg"), &[*direction_deg])?;
+            finite(file, &at("phase_deg"), &[*phase_deg])?;
+            ("height", 0.5 * *height, ramp)
+        }
         Waves::Jonswap { hs, tp, gamma, components, direction_deg, cut_off, ramp, .. } => {
             not_negative(file, &at("hs"), *hs, "m")?;
             positive(file, &at("tp"), *tp, "s")?;
@@ -102,6 +120,26 @@ fn sea(waves: &Waves, place: &str, file: &str) -> Result<(&'static str, f64), Er
             above_the_peak(file, &at("cut_off"), *cut_off, period.recip())?;
             ("spectrum", height, ramp)
         }
+        Waves::Elevation { path, series, at: [x, y], direction_deg, cut_off, ramp, .. } => {
+            finite(file, &at("at"), &[*x, *y])?;
+            finite(file, &at("direction_deg"), &[*direction_deg])?;
+            if let Some(cut_off) = cut_off {
+                positive(file, &at("cut_off"), *cut_off, "Hz")?;
+            }
+            let down = match (path, series) {
+                (Some(_), None) => 0.0,
+                (None, Some(series)) => elevation(series, *cut_off, &at("series"), &at("cut_off"), file)?,
+                (None, None) => {
+                    let allowed = "it must have `path`, a CSV file of rows t,eta, or `series`, a list of such rows";
+                    return refuse(file, place, "an elevation without a record", allowed).map(|()| ("", 0.0));
+                }
+                (Some(_), Some(_)) => {
+                    let allowed = "give `path` or `series`, not both";
+                    return refuse(file, place, "an elevation with two records", allowed).map(|()| ("", 0.0));
+                }
+            };
+            ("series", down, ramp)
+        }
         Waves::Components { components, ramp, .. } => {
             count(components.len())?;
             for (index, c) in components.iter().enumerate() {
@@ -113,6 +151,54 @@ fn sea(waves: &Waves, place: &str, file: &str) -> Result<(&'static str, f64), Er
     not_negative(file, &at("ramp"), ramp.unwrap_or(0.0), "s; 0 means none")?;
     waves.spreading().map_or(Ok(()), |spreading| spread(file, &at("spreading"), spreading))?;
     Ok((key, down))
+}
+
+/// Evenly spaced rows that rise in time, a cut-off above their peak, and not more components than can be summed; their height [m].
+fn elevation(series: &[[f64; 2]], cut_off: Option<f64>, place: &str, cut: &str, file: &str) -> Result<f64, Error> {
+    let record = match Record::new(series) {
+        Ok(record) => record,
+        Err(Fault { row, found, allowed }) => {
+            let place = row.map_or(place.to_string(), |row| format!("{place}[{row}]"));
+            return refuse(file, place, found, allowed).map(|()| 0.0);
+        }
+    };
+    above_the_peak(file, cut, cut_off, record.peak)?;
+    let count = record.up_to(record.cut_off(cut_off)).len();
+    if count > MOST_OF_A_RECORD {
+        let allowed = format!(
+            "up to {:.4} Hz it has more than {MOST_OF_A_RECORD}; lower `cut_off` or cut the record",
+            record.cut_off(cut_off)
+        );
+        refuse(file, place, format!("a record of {count} components"), allowed)?;
+    }
+    Ok(4.0 * record.variance(record.cut_off(cut_off)).sqrt())
+}
+
+/// Neither higher than a wave can stand nor longer than the fifth order holds for.
+fn steep(scene: &Scene, height: f64, period: f64, place: &str, file: &str) -> Result<(), Error> {
+    let (gravity, depth) = (scene.environment.gravity, scene.environment.depth);
+    let metres = |value: f64| format!("{} m", number((100.0 * value).round() / 100.0));
+    let Some(wave) = Stokes::new(height, period, gravity, depth) else {
+        let allowed = format!("no wave of the fifth order of {} s is so high in {} of water", number(period), metres(depth));
+        return refuse(file, format!("{place}.height"), metres(height), allowed);
+    };
+    let length = wave.length();
+    let highest = stokes::highest(length, depth);
+    if !(height <= highest) {
+        let allowed =
+            format!("a wave of this period is {} long here and breaks at {} (Fenton 1990)", metres(length), metres(highest));
+        return refuse(file, format!("{place}.height"), metres(height), allowed);
+    }
+    let long = height * length * length / depth.powi(3);
+    if !(long <= stokes::LONGEST) {
+        let allowed = format!(
+            "height × length² / depth³ is {} and the fifth order holds up to {} (Hedges 1995): the wave is too long for the depth",
+            number((10.0 * long).round() / 10.0),
+            stokes::LONGEST
+        );
+        return refuse(file, format!("{place}.period"), format!("{} s, {} long,", number(period), metres(length)), allowed);
+    }
+    Ok(())
 }
 
 /// Said once how much, and within what a spectrum of directions can be.

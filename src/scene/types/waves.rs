@@ -1,5 +1,6 @@
 //! The part `environment.waves` of a scene.
 
+use crate::scene::elevation_file::Record;
 use schemars::JsonSchema;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess, Visitor};
@@ -32,6 +33,14 @@ impl Seas {
         }
     }
 
+    /// The seas, to be changed.
+    pub fn each_mut(&mut self) -> &mut [Waves] {
+        match self {
+            Seas::One(sea) => std::slice::from_mut(sea),
+            Seas::Several(seas) => seas,
+        }
+    }
+
     /// The only sea, where there is one.
     pub fn alone(&self) -> Option<&Waves> {
         match self.each() {
@@ -55,11 +64,7 @@ impl Seas {
 
     /// Gives all seas that are drawn at random a seed; whether there are any.
     pub fn set_seed(&mut self, seed: u64) -> bool {
-        let seas = match self {
-            Seas::One(sea) => std::slice::from_mut(sea),
-            Seas::Several(seas) => seas,
-        };
-        seas.iter_mut().filter_map(Waves::seed_mut).map(|own| *own = seed).count() > 0
+        self.each_mut().iter_mut().filter_map(Waves::seed_mut).map(|own| *own = seed).count() > 0
     }
 }
 
@@ -108,6 +113,27 @@ pub enum Waves {
         /// How the motion of still water is carried to the moving surface. Default `wheeler`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         stretching: Option<Stretching>,
+    },
+    /// One regular wave, steep or in shallow water: Stokes's expansion to the fifth order (Fenton 1985), crests higher than troughs are deep. It is a
+    /// sea alone and needs no stretching.
+    #[serde(rename = "regular-5th")]
+    Regular5th {
+        /// Height from trough to crest [m], > 0, at most what stands at this depth.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        height: f64,
+        /// Period [s], > 0, not so long that height × length² / depth³ passes 40.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        period: f64,
+        /// Direction of travel from +x towards +y [deg]. Default 0.
+        #[serde(default)]
+        direction_deg: f64,
+        /// Phase at the origin at t = 0 [deg]; at 0 the crest is there. Default 0.
+        #[serde(default)]
+        phase_deg: f64,
+        /// Time over which the amplitude is eased in [s], ≥ 0. Default: one period.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
+        ramp: Option<f64>,
     },
     /// A JONSWAP sea: components of equal energy at random frequencies with random phases.
     Jonswap {
@@ -238,6 +264,33 @@ pub enum Waves {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         stretching: Option<Stretching>,
     },
+    /// A measured or computed elevation at a place: its Fourier components, all travelling in one direction. The sea repeats itself after the
+    /// record. Either `path` or `series`.
+    Elevation {
+        /// CSV file with rows `t,eta` in s and m, evenly spaced, at least 16; relative to the scene's file.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        path: Option<String>,
+        /// The same rows in the scene itself.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        series: Option<Vec<[f64; 2]>>,
+        /// Place where the elevation is that of the record, x and y [m]. Default [0, 0].
+        #[serde(default)]
+        at: [f64; 2],
+        /// Direction of travel from +x towards +y [deg]. Default 0.
+        #[serde(default)]
+        direction_deg: f64,
+        /// Frequency above which the energy is left out [Hz], above the peak's. Default: five times the peak's.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        cut_off: Option<f64>,
+        /// Time over which the amplitude is eased in [s], ≥ 0; the record is met from then on. Default: one period of the peak.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
+        ramp: Option<f64>,
+        /// How the motion of still water is carried to the moving surface. Default `wheeler`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        stretching: Option<Stretching>,
+    },
     /// A list of regular components.
     Components {
         /// The components, 1 to 5000.
@@ -338,7 +391,9 @@ impl Waves {
             | Waves::PiersonMoskowitz { stretching, .. }
             | Waves::OchiHubble { stretching, .. }
             | Waves::Table { stretching, .. }
+            | Waves::Elevation { stretching, .. }
             | Waves::Components { stretching, .. } => *stretching,
+            Waves::Regular5th { .. } => None,
         }
     }
 
@@ -349,7 +404,7 @@ impl Waves {
             | Waves::PiersonMoskowitz { spreading, .. }
             | Waves::OchiHubble { spreading, .. }
             | Waves::Table { spreading, .. } => spreading.as_ref(),
-            Waves::Regular { .. } | Waves::Components { .. } => None,
+            Waves::Regular { .. } | Waves::Regular5th { .. } | Waves::Elevation { .. } | Waves::Components { .. } => None,
         }
     }
 
@@ -360,7 +415,7 @@ impl Waves {
             | Waves::PiersonMoskowitz { seed, .. }
             | Waves::OchiHubble { seed, .. }
             | Waves::Table { seed, .. } => Some(*seed),
-            Waves::Regular { .. } | Waves::Components { .. } => None,
+            Waves::Regular { .. } | Waves::Regular5th { .. } | Waves::Elevation { .. } | Waves::Components { .. } => None,
         }
     }
 
@@ -370,7 +425,15 @@ impl Waves {
             | Waves::PiersonMoskowitz { seed, .. }
             | Waves::OchiHubble { seed, .. }
             | Waves::Table { seed, .. } => Some(seed),
-            Waves::Regular { .. } | Waves::Components { .. } => None,
+            Waves::Regular { .. } | Waves::Regular5th { .. } | Waves::Elevation { .. } | Waves::Components { .. } => None,
+        }
+    }
+
+    /// The record of an elevation that is in the scene, once it is read.
+    pub fn record(&self) -> Option<Record> {
+        match self {
+            Waves::Elevation { series: Some(series), .. } => Record::new(series).ok(),
+            _ => None,
         }
     }
 
@@ -386,7 +449,11 @@ impl Waves {
                 let peak = spectrum.iter().max_by(|one, other| one[1].total_cmp(&other[1]))?;
                 Some((4.0 * variance(spectrum).sqrt(), peak[0].recip()))
             }
-            Waves::Regular { .. } | Waves::Components { .. } => None,
+            Waves::Elevation { cut_off, .. } => {
+                let record = self.record()?;
+                Some((4.0 * record.variance(record.cut_off(*cut_off)).sqrt(), record.peak.recip()))
+            }
+            Waves::Regular { .. } | Waves::Regular5th { .. } | Waves::Components { .. } => None,
         }
     }
 }
