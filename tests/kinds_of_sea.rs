@@ -599,6 +599,16 @@ fn what_a_current_over_time_cannot_be_is_named_with_its_place() {
     }
 }
 
+/// The scheme of 1994 knows steady currents alone, and says so rather than leave the change out.
+#[test]
+fn the_scheme_of_1994_refuses_a_current_over_time() {
+    let mut scene: Value = serde_json::from_str(include_str!("../examples/lindahl-sjoberg.json")).expect("the example");
+    scene["environment"]["current_over_time"] = json!({"rows": [[0, 0, 1, 0, 0]]});
+    let sets = ["solver.scheme=cable-1994", "solver.fixed_step=0.05", "environment.surface=none"].map(String::from);
+    let error = read::parse(&scene.to_string(), "sea.json", Path::new("."), &sets).expect_err("refused").to_string();
+    assert!(error.contains("environment.current_over_time: a current that changes"), "{error}");
+}
+
 /// The period of a wave of the fifth order of a number k and a steepness ε = kH/2.
 fn period(k: f64, e: f64, depth: f64) -> f64 {
     let [c0, c2, c4] = Coefficients::new(k * depth).c;
