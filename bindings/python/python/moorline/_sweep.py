@@ -280,12 +280,14 @@ class _Client:
     def __enter__(self) -> Any:
         if self.given is not None:
             return self.given
+        import dask
         from distributed import Client, LocalCluster
 
         # Runs share the cores out among themselves; within a run, lines take turns.
         alone = {"RAYON_NUM_THREADS": "1"}
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        self.cluster = LocalCluster(n_workers=cores, threads_per_worker=1, dashboard_address=None, env=alone)
+        with dask.config.set({"distributed.worker.profile.enabled": False}):
+            self.cluster = LocalCluster(n_workers=cores, threads_per_worker=1, dashboard_address=None, env=alone)
         self.own = Client(self.cluster)
         return self.own
 
