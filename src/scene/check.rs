@@ -19,18 +19,20 @@ mod waves;
 use crate::error::Error;
 use crate::scene::types::Scene;
 pub use motion::motion_table;
+pub use waves::beyond_records;
 
 /// A rule looks at the scene and finds one thing wrong, or nothing; the text is the file's name for the message.
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 36] = [
+const RULES: [Rule; 37] = [
     environment::gravity,
     environment::water_density,
     environment::depth,
     environment::seabed,
     environment::slope,
     environment::current,
+    environment::current_over_time,
     waves::waves,
     line_types::line_types_exist,
     line_types::line_type_names,
