@@ -19,6 +19,7 @@ pub mod cli {
     pub mod progress;
     pub mod run;
     pub mod schema;
+    pub mod seeds;
     pub mod statics;
     pub mod stop;
 }
@@ -197,15 +198,21 @@ pub mod fmi {
 pub mod report {
     pub mod cable_files;
     pub mod course;
+    pub mod extremes;
     pub mod moordyn_out;
     pub mod offsets;
     pub mod page;
     pub mod page_data;
+    pub mod rainflow;
     pub mod record;
     #[cfg(test)]
     pub mod sample;
     pub mod schedule;
+    pub mod seeds;
+    pub mod statistics;
+    pub mod statistics_page;
     pub mod tables;
     pub mod units;
     pub mod vtk;
+    pub mod welch;
 }

@@ -155,6 +155,7 @@ impl Writer<'_> {
                 added_mass_along: of.added_mass.tangential * ratio * ratio,
             });
             self.lose(of.breaking_load.is_some(), || format!("line_types.{name}.breaking_load: it is left out"));
+            self.lose(of.fatigue.is_some(), || format!("line_types.{name}.fatigue: it is left out"));
             let pressed = of.inner_fluid.as_ref().is_some_and(|fluid| fluid.pressure != 0.0);
             self.lose(pressed, || format!("line_types.{name}.inner_fluid.pressure: it is left out"));
         }

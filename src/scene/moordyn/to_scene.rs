@@ -229,6 +229,7 @@ impl Making<'_> {
             damping: damping / ea,
             tension_strain: table,
             breaking_load: None,
+            fatigue: None,
             inner_fluid: None,
             outer_area: None,
             seabed_stiffness: (self.deck.options.bed_stiffness > 0.0).then_some(self.deck.options.bed_stiffness * kind.diameter),
