@@ -200,4 +200,5 @@ pub mod report {
     pub mod schedule;
     pub mod tables;
     pub mod units;
+    pub mod vtk;
 }

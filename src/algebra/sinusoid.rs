@@ -31,6 +31,11 @@ impl Sinusoid {
         self.at_phase(&self.phase(time))
     }
 
+    /// Whether nothing moves.
+    pub fn is_still(&self) -> bool {
+        self.sine == Vector3::zeros() && self.cosine == Vector3::zeros()
+    }
+
     /// What all motions of this period and ramp share at a time [s].
     pub fn phase(&self, time: f64) -> Phase {
         Phase { sin_cos: (self.omega * time).sin_cos(), ramp: ramp_at(time, self.ramp) }

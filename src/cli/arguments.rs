@@ -60,6 +60,9 @@ pub struct RunOptions {
     /// Value to put into the scene before it is checked, such as run.duration=60; repeatable
     #[arg(long = "set", value_name = "PLACE=VALUE")]
     pub sets: Vec<String>,
+    /// Write the snapshots for ParaView too: DIR/vtk/lines.pvd, and bodies.pvd where there are bodies
+    #[arg(long)]
+    pub vtk: bool,
     /// Print nothing but errors
     #[arg(short, long)]
     pub quiet: bool,

@@ -16,6 +16,7 @@ use crate::report::record::Record;
 use crate::report::schedule::Schedule;
 use crate::report::tables::{self, Nodes, TimeSeries};
 use crate::report::units::{count, sim_time, wall_time};
+use crate::report::vtk;
 use crate::scene::cable::Deck;
 use crate::scene::read::{self, Loaded};
 use std::fmt::Write;
@@ -41,6 +42,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     let files = Files::of(&arguments.options.output)?;
     let progress = Progress::new(schedule.rows(), record.scene.run.end(), quiet);
     let mut tables = Tables::create(&files, &record, &loaded, &arguments.options.output, progress)?;
+    let pictures = arguments.options.output.join("vtk");
+    tables.vtk = arguments.options.vtk.then(|| vtk::Series::create(&pictures, &loaded.scene)).transpose()?;
     let interrupt = Interrupt::watch();
     let stop = || interrupt.came();
     let wanted = Wanted { schedule: &schedule, text: true, walls: tables.walls, states: tables.cable.is_some(), stop: &stop };
@@ -58,7 +61,12 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     if !quiet {
         // Warnings of the scene were given before the run; what the run itself has to say comes after it.
         record.warnings().iter().skip(loaded.warnings.len()).for_each(|warning| console::warning(warning));
-        console::print(&(printed_summary(&record, &files) + &fmu))?;
+        let paraview = if arguments.options.vtk {
+            format!("  {}  this one in ParaView\n", pictures.join(vtk::LINES).display())
+        } else {
+            String::new()
+        };
+        console::print(&(printed_summary(&record, &files) + &paraview + &fmu))?;
     }
     Ok(outcome?)
 }
@@ -112,6 +120,8 @@ struct Tables {
     walls: bool,
     /// The files of 1994, where a CABLE file is run.
     cable: Option<(CableFiles, Arc<Deck>)>,
+    /// The files for ParaView, where they are wanted.
+    vtk: Option<vtk::Series>,
     progress: Progress,
 }
 
@@ -127,6 +137,7 @@ impl Tables {
             nodes: Nodes::new(tables::create(&files.nodes)?, &files.nodes, walls)?,
             walls,
             cable: loaded.deck.clone().map(|deck| Ok((CableFiles::create(directory, &deck)?, deck))).transpose()?,
+            vtk: None,
             progress,
         })
     }
@@ -143,6 +154,7 @@ impl Follower for Tables {
     }
 
     fn snapshot(&mut self, row: &Row) -> Result<(), Error> {
+        self.vtk.as_mut().map_or(Ok(()), |vtk| vtk.snapshot(row))?;
         self.nodes.snapshot(&row.node_rows)
     }
 

@@ -47,6 +47,9 @@ impl BodyMotion {
     pub fn of_angles(reference: Kinematics, angles: [Vector3<f64>; 3]) -> BodyMotion {
         let [q, rate, second] = angles;
         let attitude = Attitude::of(&q);
+        if rate == Vector3::zeros() && second == rate {
+            return BodyMotion { reference, rotation: attitude.rotation(), omega: rate, alpha: rate };
+        }
         let turning = attitude.rates_to_omega();
         BodyMotion {
             reference,
@@ -126,6 +129,9 @@ impl PosePath {
             PosePath::Sinusoidal { about, offsets } => {
                 let phase = offsets[0].phase(time);
                 [0, 1].map(|part: usize| {
+                    if offsets[part].is_still() {
+                        return [about[part], zero, zero];
+                    }
                     let [x, v, a] = offsets[part].at_phase(&phase);
                     [about[part] + x, v, a]
                 })
@@ -177,7 +183,7 @@ impl PosePath {
     pub fn rests(&self, from: f64, until: f64, arm: f64, slight: f64) -> bool {
         match self {
             PosePath::Fixed { .. } => true,
-            PosePath::Sinusoidal { offsets, .. } => offsets.iter().all(|offset| offset.sine.norm() + offset.cosine.norm() == 0.0),
+            PosePath::Sinusoidal { offsets, .. } => offsets.iter().all(Sinusoid::is_still),
             PosePath::Table(table) => {
                 let (first, last) = (table.times.first().copied().unwrap_or(0.0), table.times.last().copied().unwrap_or(0.0));
                 let constant = |values: &Vec<f64>| values.windows(2).all(|pair| pair[0] == pair[1]);

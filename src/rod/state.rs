@@ -88,6 +88,18 @@ impl Field {
         Vector3::from_fn(|c, _| self.data[(c + 3) * self.stride + node])
     }
 
+    /// Largest position of nodes `first` to before `end`; NaN where there is one.
+    pub fn largest_position(&self, first: usize, end: usize) -> f64 {
+        let mut largest: f64 = 0.0;
+        for node in first..end {
+            let size = self.position(node).norm();
+            if size > largest || size.is_nan() {
+                largest = size;
+            }
+        }
+        largest
+    }
+
     /// Sets components 0–2 of a node.
     pub fn set_position(&mut self, node: usize, x: &Vector3<f64>) {
         for c in 0..3 {

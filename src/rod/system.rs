@@ -47,6 +47,10 @@ pub trait System: Send + Sync {
     fn loose(&self, _: &Field) -> f64 {
         0.0
     }
+    /// Size of an error of the positions [m], each line's by its own scale as a share of the finest one.
+    fn error_size(&self, error: &Field) -> f64 {
+        error.largest_position(0, error.nodes())
+    }
     /// Displacement of each hanging node per unit of its master's six unknowns.
     fn levers(&self, _: &Motion, _: &mut [Matrix3x6<f64>]) {}
 }

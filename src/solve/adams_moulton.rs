@@ -9,7 +9,7 @@
 use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::Stall;
-use crate::solve::scheme::{Bench, Moment, Scheme, largest_position, predict};
+use crate::solve::scheme::{Bench, Moment, Scheme, predict};
 
 /// The scheme and its working space.
 pub struct AdamsMoulton {
@@ -37,7 +37,7 @@ impl Scheme for AdamsMoulton {
         let share = h * h / 12.0;
         self.error.set_sum([(share, &next.a), (-share, &start.a)]);
         bench.filter(next, &mut self.error, &mut self.scratch);
-        Ok(largest_position(&self.error))
+        Ok(bench.line.error_size(&self.error))
     }
 
     fn error_order(&self) -> f64 {

@@ -12,7 +12,7 @@
 use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::Stall;
-use crate::solve::scheme::{Bench, Moment, Scheme, largest_position, predict};
+use crate::solve::scheme::{Bench, Moment, Scheme, predict};
 
 /// Coefficients of a method of up to four stages.
 #[derive(Debug)]
@@ -143,7 +143,7 @@ impl Scheme for Esdirk {
             self.error.component_mut(component)[node] = 0.0;
         }
         bench.filter(next, &mut self.error, &mut self.base);
-        Ok(largest_position(&self.error))
+        Ok(bench.line.error_size(&self.error))
     }
 
     fn error_order(&self) -> f64 {

@@ -13,7 +13,7 @@
 use crate::rod::motion::Weights;
 use crate::rod::state::{Field, State};
 use crate::solve::newton::Stall;
-use crate::solve::scheme::{Bench, Moment, Scheme, largest_position, predict};
+use crate::solve::scheme::{Bench, Moment, Scheme, predict};
 
 const RHO: f64 = 0.6;
 const ALPHA_M: f64 = (2.0 * RHO - 1.0) / (RHO + 1.0);
@@ -69,7 +69,7 @@ impl Scheme for GeneralizedAlpha {
         let share = h * h * (BETA - 1.0 / 6.0);
         self.error.set_sum([(share, &next.a), (-share, &start.a)]);
         bench.filter(next, &mut self.error, &mut self.scratch);
-        Ok(largest_position(&self.error))
+        Ok(bench.line.error_size(&self.error))
     }
 
     fn error_order(&self) -> f64 {

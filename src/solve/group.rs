@@ -73,6 +73,8 @@ pub struct Group {
     moment: Moment,
     fresh: bool,
     last: LastStep,
+    /// Error allowed to each line [m].
+    errors: Vec<f64>,
     /// Work done on what moves each driven end [J], and whether it is summed up.
     works: Vec<f64>,
     sums_work: bool,
@@ -201,7 +203,7 @@ impl Group {
             .map(|body| format!("body \"{}\"", scene.bodies[*body].name))
             .chain(together.points.iter().map(|point| format!("point \"{}\"", scene.points[*point].name)))
             .collect();
-        let (nodes, works) = (network.nodes(), vec![0.0; network.driven.len()]);
+        let (nodes, works, errors) = (network.nodes(), vec![0.0; network.driven.len()], vec![0.0; simulations.len()]);
         let newton = Newton::new(&network);
         let mut moment = controller::at_rest(&network, 0.0, scene.solver.max_step);
         moment.state.frames = vec![Matrix3::identity(); together.bodies.len()];
@@ -222,6 +224,7 @@ impl Group {
             network,
             fresh: true,
             last: LastStep::default(),
+            errors,
             works,
             sums_work: false,
             names,
@@ -395,19 +398,36 @@ impl Group {
 
     /// Change of the outputs of its lines, and of its bodies and points, at a time per share of changed paths, by a central difference of steps
     /// repeated; `drive` puts the driven ends and the applied forces of the share in place. Stays as it is.
-    pub fn derivative(&mut self, until: f64, share: f64, mut drive: impl FnMut(&mut Group, f64)) -> Result<Differences, Error> {
+    pub fn derivative(&mut self, until: f64, share: f64, drive: impl FnMut(&mut Group, f64)) -> Result<Differences, Error> {
+        self.differences(share, drive, |group| group.advance(until))
+    }
+
+    /// The same in equilibrium at a time.
+    pub fn static_derivative(&mut self, time: f64, share: f64, drive: impl FnMut(&mut Group, f64)) -> Result<Differences, Error> {
+        self.differences(share, drive, |group| group.settle(time).map(drop))
+    }
+
+    fn differences(
+        &mut self,
+        share: f64,
+        mut drive: impl FnMut(&mut Group, f64),
+        go: impl Fn(&mut Group) -> Result<(), Error>,
+    ) -> Result<Differences, Error> {
         let mut now = Snapshot::new(self.network.nodes());
         self.save(&mut now);
-        let (tally, effort, before) = (self.controller.tally, self.newton.effort, self.before.take());
+        let (tally, effort, before, others) = (self.controller.tally, self.newton.effort, self.before.take(), self.others);
         let mut at = |group: &mut Group, share: f64| {
             drive(group, share);
-            let outcome = group.advance(until).map(|()| group.all());
+            let outcome = go(group).map(|()| group.all());
             group.restore(&now);
             outcome
         };
-        let ends = at(self, share).and_then(|after| Ok((after, at(self, -share)?, at(self, 0.0)?)));
-        (self.controller.tally, self.newton.effort, self.before) = (tally, effort, before);
-        let (after, before, here) = ends?;
+        let after = at(self, share);
+        let ends = after.and_then(|after| Ok((after, at(self, -share)?)));
+        // Whatever failed: driven as before.
+        let here = at(self, 0.0);
+        (self.controller.tally, self.newton.effort, self.before, self.others) = (tally, effort, before, others);
+        let ((after, before), here) = (ends?, here?);
         let per = 0.5 / share;
         Ok(Differences {
             outputs: here.0,
@@ -613,7 +633,8 @@ impl Group {
 
     /// The complete state.
     pub fn save(&self, snapshot: &mut Snapshot) {
-        snapshot.keep(&self.moment, self.newton.memory(), &self.works, self.demands.error, self.fresh, self.last);
+        let lists = [&self.works[..], &self.errors];
+        snapshot.keep(&self.moment, self.newton.memory(), lists, self.demands.error, self.fresh, self.last);
     }
 
     /// Puts back a state of this group; false, and nothing changed, if it is not one.
@@ -621,9 +642,11 @@ impl Group {
         if !self.fits(snapshot) {
             return false;
         }
-        let (error, fresh, last) = snapshot.bring_back(&mut self.moment, &mut self.newton, &mut self.works);
+        let lists = [&mut self.works[..], &mut self.errors];
+        let (error, fresh, last) = snapshot.bring_back(&mut self.moment, &mut self.newton, lists);
         (self.demands.error, self.fresh, self.last) = (error, fresh, last);
         self.emphasise();
+        self.network.allow(&self.errors, error);
         true
     }
 
@@ -631,7 +654,7 @@ impl Group {
     pub fn fits(&self, snapshot: &Snapshot) -> bool {
         snapshot.nodes() == self.network.nodes()
             && snapshot.bodies() == self.together.bodies.len()
-            && snapshot.driven() == self.works.len()
+            && snapshot.driven_and_lines() == self.works.len() + self.errors.len()
             && snapshot.holding_nodes() == self.network.holding_nodes()
     }
 

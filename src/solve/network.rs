@@ -36,6 +36,8 @@ pub struct Network {
     pub pulls: Vec<(usize, Vector3<f64>)>,
     /// Prescribed unknowns.
     pub fixed: Vec<(usize, usize)>,
+    /// Error allowed to the finest line over that allowed to each line, in the order of the ranges of `links`, and to each master.
+    pub shares: Vec<f64>,
     /// Room for forces of the tangent.
     room: Mutex<Field>,
 }
@@ -70,7 +72,8 @@ impl Network {
         fixed.sort_unstable();
         fixed.dedup();
         let room = Mutex::new(Field::new(rod.nodes()));
-        Network { rod, bodies, links, arms, driven, pulls, fixed, room }
+        let shares = vec![1.0; links.ranges.len() + links.masters.len()];
+        Network { rod, bodies, links, arms, driven, pulls, fixed, shares, room }
     }
 
     /// Lets clamped ends go with the bodies that drive them.
@@ -84,6 +87,20 @@ impl Network {
 
     fn body_at(&self, node: usize) -> Option<&Rigid> {
         self.bodies.iter().find(|body| body.node == node)
+    }
+
+    /// Sets the error allowed to each line [m], the finest of them `finest`; bodies and points have that of the finest line on them.
+    pub fn allow(&mut self, errors: &[f64], finest: f64) {
+        let lines = self.links.ranges.len();
+        self.shares.fill(1.0);
+        for (share, error) in self.shares.iter_mut().zip(errors) {
+            *share = (finest / error).min(1.0);
+        }
+        for master in 0..self.links.masters.len() {
+            let on = self.links.links.iter().filter(|link| link.master == master);
+            let most = on.map(|link| self.shares[link.line]).fold(0.0, f64::max);
+            self.shares[lines + master] = if most > 0.0 { most } else { 1.0 };
+        }
     }
 
     /// Forces that reach bodies and points at a motion: the residual with that of hanging ends taken to their masters.
@@ -224,6 +241,15 @@ impl System for Network {
             out.set_slope(master, &(out.slope(master) + six.fixed_rows::<3>(3)));
             out.set_position(link.node, &Vector3::zeros());
         }
+    }
+
+    fn error_size(&self, error: &Field) -> f64 {
+        let masters = self.links.masters.iter().map(|node| (*node, node + 1));
+        let parts = self.links.ranges.iter().copied().chain(masters);
+        parts.zip(&self.shares).fold(0.0, |largest, ((first, end), share)| {
+            let size = share * error.largest_position(first, end);
+            if size > largest || size.is_nan() { size } else { largest }
+        })
     }
 
     fn levers(&self, at: &Motion, out: &mut [Matrix3x6<f64>]) {

@@ -112,7 +112,7 @@ impl Bench<'_> {
     /// as the step itself damps it (Hosea & Shampine 1996). Needs the factor of the stage. An error that is small enough as it is
     /// stays: nine of ten are.
     pub fn filter(&mut self, state: &State, error: &mut Field, scratch: &mut Field) {
-        if matches!(self.stages, Stages::Linear(_)) || largest_position(error) <= self.allowed {
+        if matches!(self.stages, Stages::Linear(_)) || self.line.error_size(error) <= self.allowed {
             return;
         }
         self.line.inertia(&motion(state), error, scratch);
@@ -163,18 +163,6 @@ pub trait Scheme: Send {
     fn is_l_stable(&self) -> bool {
         false
     }
-}
-
-/// Largest position error of a field [m].
-pub fn largest_position(field: &Field) -> f64 {
-    let mut largest: f64 = 0.0;
-    for node in 0..field.nodes() {
-        let size = field.position(node).norm();
-        if !(size <= largest) {
-            largest = size;
-        }
-    }
-    largest
 }
 
 /// Linear extrapolation of the accelerations to the end of a step, factor·(a - a_before) beyond a; constant without history.

@@ -21,8 +21,8 @@ pub struct Snapshot {
     pub(super) work: f64,
     /// Work done on what moves the anchor.
     pub(super) anchor_work: f64,
-    /// Of a network, work done on what moves each driven end.
-    pub(super) works: Vec<f64>,
+    /// Of a network, work done on what moves each driven end, then the error allowed to each line.
+    pub(super) of_network: Vec<f64>,
     pub(super) fresh: bool,
     /// The line is known to be at rest.
     pub(super) resting: bool,
@@ -54,7 +54,7 @@ impl Snapshot {
             tensions,
             work: 0.0,
             anchor_work: 0.0,
-            works: Vec::new(),
+            of_network: Vec::new(),
             fresh: true,
             resting: false,
             planar: false,
@@ -73,9 +73,9 @@ impl Snapshot {
         self.moment.state.frames.len()
     }
 
-    /// Number of driven ends of what it belongs to.
-    pub fn driven(&self) -> usize {
-        self.works.len()
+    /// Number of driven ends and lines of the network that it belongs to.
+    pub fn driven_and_lines(&self) -> usize {
+        self.of_network.len()
     }
 
     /// Number of nodes that hold on to the bed.
@@ -83,18 +83,26 @@ impl Snapshot {
         self.moment.state.holds.nodes()
     }
 
-    /// Becomes the state of a network.
-    pub fn keep(&mut self, moment: &Moment, memory: &Memory, works: &[f64], error: f64, fresh: bool, last: LastStep) {
-        self.works.clear();
-        self.works.extend_from_slice(works);
+    /// Becomes the state of a network: works done on its driven ends, errors allowed to its lines and to the finest.
+    pub fn keep(
+        &mut self,
+        moment: &Moment,
+        memory: &Memory,
+        [works, errors]: [&[f64]; 2],
+        error: f64,
+        fresh: bool,
+        last: LastStep,
+    ) {
+        self.of_network.clear();
+        self.of_network.extend(works.iter().chain(errors));
         self.moment.copy_from(moment);
         self.memory.clone_from(memory);
         (self.error, self.fresh, self.last, self.planar, self.resting) = (error, fresh, last, false, false);
     }
 
     /// Puts back the state of a network; returns the allowed error, whether it is fresh, and its last step.
-    pub fn bring_back(&self, moment: &mut Moment, newton: &mut Newton, works: &mut Vec<f64>) -> (f64, bool, LastStep) {
-        works.clone_from(&self.works);
+    pub fn bring_back(&self, moment: &mut Moment, newton: &mut Newton, lists: [&mut [f64]; 2]) -> (f64, bool, LastStep) {
+        lists.into_iter().flatten().zip(&self.of_network).for_each(|(to, from)| *to = *from);
         moment.copy_from(&self.moment);
         newton.recall(&self.memory);
         (self.error, self.fresh, self.last)
@@ -114,7 +122,7 @@ impl Snapshot {
             last.substeps as u64,
             last.newton_iterations as u64,
             m.state.frames.len() as u64,
-            self.works.len() as u64,
+            self.of_network.len() as u64,
         ];
         out.reserve(
             8 * (words.len() + SCALARS + 18 * m.state.frames.len() + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())),
@@ -127,7 +135,7 @@ impl Snapshot {
         write(&scalars, out);
         [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds].into_iter().for_each(|field| write_field(field, out));
         m.state.frames.iter().for_each(|frame| write(frame.as_slice(), out));
-        write(&self.works, out);
+        write(&self.of_network, out);
         write(&self.tensions.now, out);
         write(&self.tensions.before, out);
         if let Some(origin) = &memory.origin {
@@ -148,13 +156,13 @@ impl Snapshot {
         let guard = u32::try_from(words.next()?).ok()?;
         let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
         let bodies = usize::try_from(words.next()?).ok().filter(|bodies| *bodies <= nodes)?;
-        let driven = usize::try_from(words.next()?).ok().filter(|driven| *driven <= nodes)?;
+        let more = usize::try_from(words.next()?).ok().filter(|more| *more <= 2 * nodes)?;
         let numbers = |fields: usize| nodes.checked_mul(fields)?.checked_add(holding)?.checked_mul(COMPONENTS);
         let origin = if kept { numbers(3)?.checked_add(5 + 9 * bodies)? } else { 0 };
-        let expected = numbers(4)?.checked_add(8 + SCALARS + 9 * bodies + driven)?.checked_add(origin)?.checked_mul(8)?;
+        let expected = numbers(4)?.checked_add(8 + SCALARS + 9 * bodies + more)?.checked_add(origin)?.checked_mul(8)?;
         let per_node = match bytes.len().checked_sub(expected)? {
             0 => 0,
-            more if more == 4 * 8 * nodes => 2,
+            rest if rest == 4 * 8 * nodes => 2,
             _ => return None,
         };
         if nodes < 2 {
@@ -167,7 +175,7 @@ impl Snapshot {
         let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
         let (earlier, holds) = (field(nodes, &mut number)?, field(holding, &mut number)?);
         let frames = turns(bodies, &mut number)?;
-        let works = (0..driven).map(|_| number()).collect::<Option<Vec<f64>>>()?;
+        let of_network = (0..more).map(|_| number()).collect::<Option<Vec<f64>>>()?;
         let mut list = || (0..per_node * nodes).map(|_| number()).collect::<Option<Vec<f64>>>();
         let tensions = Tensions { now: list()?, before: list()? };
         let mut origin = || {
@@ -186,7 +194,7 @@ impl Snapshot {
             tensions,
             work,
             anchor_work,
-            works,
+            of_network,
             fresh,
             resting,
             planar,

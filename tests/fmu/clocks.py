@@ -3,9 +3,10 @@
 import ctypes
 import sys
 
-from master import ERROR, OK, Fmu, Line, surge
+from master import ERROR, OK, Fmu, Line, motion_of
 
 fmu = Fmu(sys.argv[1])
+motion = motion_of(fmu)
 
 
 def single(time: float) -> float:
@@ -25,14 +26,14 @@ CLOCKS = {
 exact = None
 for name, (clock, length) in CLOCKS.items():
     for step in (0.1, 1 / 30):
-        line = Line(fmu).start(surge)
+        line = Line(fmu).start(motion)
         for number in range(round((1000.0 if step == 0.1 else 100.0) / step)):
             time = number * step
-            line.move(surge, time)
+            line.move(motion, time)
             assert line.do_step(clock(time), length(step)) == OK, f"{name}, {time} s: {line.log[-1]}"
         line.free()
 
-line = Line(fmu).start(surge)
+line = Line(fmu).start(motion)
 assert line.do_step(0.0, 0.1) == OK
 for wrong in (0.0, 0.05, 0.09, 0.11, 0.2):
     assert line.do_step(wrong, 0.1) == ERROR and "currentCommunicationPoint" in line.log[-1][2], wrong

@@ -20,18 +20,9 @@ assert {name for names, _ in GROUPS for name in names} == set(fmu.outputs), "an 
 
 
 def directional(line: Line, name: str) -> list[float]:
-    result = (c.c_double * len(fmu.outputs))()
-    status = line.call(
-        "fmi2GetDirectionalDerivative",
-        line.references(fmu.outputs),
-        c.c_size_t(len(fmu.outputs)),
-        line.references([name]),
-        c.c_size_t(1),
-        (c.c_double * 1)(1.0),
-        result,
-    )
+    status, changes = line.directional(fmu.outputs, name)
     assert status == OK, line.log
-    return list(result)
+    return changes
 
 
 def difference(line: Line, name: str, step: float, small: float) -> list[float]:

@@ -1,7 +1,9 @@
-/* A master in C that loads the library given as argument, steps it for 10 s and prints the tension. For the win64 library under wine:
+/* A master in C that loads the library given as argument, moves a fairlead or a vessel for 10 s and prints an output. For the win64 library under wine:
  *     x86_64-w64-mingw32-gcc -o host.exe tests/fmu/host.c
- *     wine64 host.exe binaries/win64/moorline.dll GUID file:///.../resources */
+ *     wine64 host.exe binaries/win64/moorline.dll GUID file:///.../resources POSITION VELOCITY OUTPUT
+ * The last three are value references. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <windows.h>
 
 typedef void *(*Instantiate)(const char *, int, const char *, const char *, const void *, int, int);
@@ -21,12 +23,15 @@ static void logger(void *environment, const char *name, int status, const char *
 int main(int argc, char **argv)
 {
     struct { void (*logger)(void *, const char *, int, const char *, const char *, ...); void *rest[4]; } callbacks = {logger, {0}};
-    const unsigned inputs[2] = {0, 3}, tension = 10;
+    unsigned inputs[2], output;
     double time = 0.0, value = 0.0;
     void *line;
     HMODULE library;
-    if (argc != 4)
+    if (argc != 7)
         return 2;
+    inputs[0] = (unsigned)atoi(argv[4]);
+    inputs[1] = (unsigned)atoi(argv[5]);
+    output = (unsigned)atoi(argv[6]);
     library = LoadLibraryA(argv[1]);
     if (!library) {
         printf("cannot load %s: error %lu\n", argv[1], GetLastError());
@@ -45,9 +50,9 @@ int main(int argc, char **argv)
             return 6;
         time += 0.1;
     }
-    if (FUNCTION(GetReal, "fmi2GetReal")(line, &tension, 1, &value))
+    if (FUNCTION(GetReal, "fmi2GetReal")(line, &output, 1, &value))
         return 7;
     FUNCTION(Free, "fmi2FreeInstance")(line);
-    printf("tension after 10 s: %.3f N\n", value);
+    printf("after 10 s: %.3f N\n", value);
     return 0;
 }

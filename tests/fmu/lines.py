@@ -1,7 +1,6 @@
 """Two lines in one FMU: what each of them gives is what an FMU with that line alone gives, to the bit (both scenes have the same motion, for
 which their meshes are made); a failure of one leaves both usable."""
 
-import ctypes as c
 import pathlib
 import sys
 
@@ -94,10 +93,9 @@ for size in [0.1] * 30 + [0.03, 0.5, 0.01, 0.2]:
 
 
 def directional(line: Line, unknown: str, known: str) -> float:
-    result = (c.c_double * 1)()
-    arguments = (line.references([unknown]), c.c_size_t(1), line.references([known]), c.c_size_t(1), (c.c_double * 1)(1.0), result)
-    assert line.call("fmi2GetDirectionalDerivative", *arguments) == OK, line.log
-    return result[0]
+    status, changes = line.directional([unknown], known)
+    assert status == OK, line.log
+    return changes[0]
 
 
 for prefix, line in singles.items():

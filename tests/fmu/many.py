@@ -3,15 +3,16 @@
 import sys
 import threading
 
-from master import OK, Fmu, Line, surge
+from master import OK, Fmu, Line, motion_of
 
 fmu = Fmu(sys.argv[1])
+motion = motion_of(fmu)
 
 
 def run(line: Line, steps: int = 20) -> list:
-    line.start(surge)
+    line.start(motion)
     for _ in range(steps):
-        assert line.step(surge) == OK, line.log
+        assert line.step(motion) == OK, line.log
     return line.outputs()
 
 
@@ -34,9 +35,9 @@ for line in lines:
     line.free()
 
 # Each call from another thread.
-wanderer = Line(fmu).start(surge)
+wanderer = Line(fmu).start(motion)
 for _ in range(20):
-    thread = threading.Thread(target=wanderer.step, args=(surge,))
+    thread = threading.Thread(target=wanderer.step, args=(motion,))
     thread.start()
     thread.join()
 assert wanderer.outputs() == alone
@@ -49,8 +50,8 @@ def memory() -> int:
 
 
 def one():
-    line = Line(fmu).start(surge)
-    assert line.step(surge) == OK
+    line = Line(fmu).start(motion)
+    assert line.step(motion) == OK
     _, state = line.get_state()
     line.deserialize(line.serialize(state))
     line.free()

@@ -104,6 +104,12 @@ class Line:
         status = self.call("fmi2GetInteger", self.references(names), c.c_size_t(len(names)), values)
         return status, list(values)
 
+    def directional(self, unknowns: list[str], known: str, seed: float = 1.0) -> tuple[int, list[float]]:
+        """Changes of unknowns with a known, by fmi2GetDirectionalDerivative."""
+        changes = (c.c_double * len(unknowns))()
+        references = self.references(unknowns), c.c_size_t(len(unknowns)), self.references([known]), c.c_size_t(1)
+        return self.call("fmi2GetDirectionalDerivative", *references, (c.c_double * 1)(seed), changes), list(changes)
+
     def outputs(self) -> list[float]:
         status, values = self.get_real(*self.fmu.outputs)
         assert status == OK, self.log
@@ -183,6 +189,14 @@ def in_another_process(state: bytes, begin: float) -> str:
         other = subprocess.run(command, capture_output=True, text=True, check=False)
         assert other.returncode == 0, other.stderr
         return other.stdout.strip()
+
+
+def motion_of(fmu: Fmu):
+    """A motion of what the FMU drives, as `Line.move` takes it: of its fairlead, or of a vessel called `ship`."""
+    if "fairlead.position.x" in fmu.reference:
+        return surge
+    names = [f"ship.{quantity}.{axis}" for quantity in ("position", "velocity") for axis in "xyz"]
+    return lambda time: dict(zip(names, sum(surge(time)[:2], [])))
 
 
 def surge(time: float):

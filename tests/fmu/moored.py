@@ -34,12 +34,6 @@ def go_on(line: Line, begin: float) -> list:
     return seen
 
 
-def directional(line: Line, name: str, seed: float = 1.0, unknown=LOADS) -> tuple[int, list]:
-    result = (c.c_double * len(unknown))()
-    arguments = line.references(unknown), c.c_size_t(len(unknown)), line.references([name]), c.c_size_t(1)
-    return line.call("fmi2GetDirectionalDerivative", *arguments, (c.c_double * 1)(seed), result), list(result)
-
-
 fmu = Fmu(sys.argv[1])
 if len(sys.argv) > 3:
     # The other process: goes on from a file.
@@ -81,7 +75,7 @@ for step in STEPS * 2:
             line.time -= 0.3
             line.free_state(kept)
         elif look == 1:
-            assert directional(line, dice.choice(NAMES))[0] == OK, line.log
+            assert line.directional(LOADS, dice.choice(NAMES))[0] == OK, line.log
         else:
             rates = (c.c_double * len(LOADS))()
             orders = (c.c_int * len(LOADS))(*[1] * len(LOADS))
@@ -106,9 +100,9 @@ line.log.clear()
 refused("output set", line.set_real({"ship.force.x": 1.0}), "ship.force.x", "an output")
 refused("axes after the start", line.set_integer({"ship.axes": 2}), "ship.axes", "fixed")
 refused("pose NaN", line.set_real({"ship.position.y": math.nan}), "ship.position.y")
-refused("direction from an output", directional(line, "ship.force.y")[0], "ship.force.y")
-refused("direction of an input", directional(line, NAMES[0], 1.0, [NAMES[0]])[0], "ship.position.x")
-refused("direction NaN", directional(line, NAMES[5], math.nan)[0], "ship.attitude.yaw")
+refused("direction from an output", line.directional(LOADS, "ship.force.y")[0], "ship.force.y")
+refused("direction of an input", line.directional([NAMES[0]], NAMES[0])[0], "ship.position.x")
+refused("direction NaN", line.directional(LOADS, NAMES[5], math.nan)[0], "ship.attitude.yaw")
 refused("step from elsewhere", line.do_step(begin + 0.05, 0.1), "currentCommunicationPoint")
 refused("step of nothing", line.do_step(begin, 0.0), "communicationStepSize")
 for position in range(0, len(data), max(1, len(data) // 40)):
@@ -137,7 +131,7 @@ assert still.setup() == OK and still.call("fmi2EnterInitializationMode") == OK
 STIFFNESS, LEVER = 83.2e3, 95.0  # against surge [N/m], from midships to the fairleads [m]
 worst = 0.0
 for name, small in (("ship.position.x", 0.1), ("ship.position.y", 0.1), ("ship.attitude.yaw", 1e-3)):
-    status, exact = directional(still, name)
+    status, exact = still.directional(LOADS, name)
     assert status == OK, still.log
     ends = []
     for change in (small, -small):
@@ -151,5 +145,5 @@ for name, small in (("ship.position.x", 0.1), ("ship.position.y", 0.1), ("ship.a
         worst = max(worst, abs(one - two) / size)
 assert worst < 1e-3, worst
 rate = name.replace("attitude.yaw", "angular_velocity.z")
-assert directional(still, rate) == (OK, [0.0] * len(LOADS)), "a rate moves nothing at rest"
+assert still.directional(LOADS, rate) == (OK, [0.0] * len(LOADS)), "a rate moves nothing at rest"
 print(f"stiffness at rest agrees with differences to {worst:.1e}")

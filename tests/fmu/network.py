@@ -4,7 +4,6 @@ usage: network.py CALM.fmu TIMESERIES.csv
 """
 
 import csv
-import ctypes as c
 import math
 import sys
 
@@ -80,16 +79,7 @@ KNOWN = {"tanker.position.x": 1e-2, "tanker.velocity.x": 5e-2, "buoy.applied_for
 UNKNOWN = ["buoy.position.x", "buoy.velocity.x", "buoy.attitude.pitch", "tanker.force.x", "tanker.moment.y", "hawser.tension", "'leg 1'.tension"]
 worst = 0.0
 for name, small in KNOWN.items():
-    result = (c.c_double * len(UNKNOWN))()
-    status = line.call(
-        "fmi2GetDirectionalDerivative",
-        line.references(UNKNOWN),
-        c.c_size_t(len(UNKNOWN)),
-        line.references([name]),
-        c.c_size_t(1),
-        (c.c_double * 1)(1.0),
-        result,
-    )
+    status, result = line.directional(UNKNOWN, name)
     assert status == OK, line.log
     _, here = line.get_state()
     value, ends = line.get_real(name)[1][0], []
@@ -105,7 +95,33 @@ for name, small in KNOWN.items():
         assert abs(result[k] - by) < 0.05 * abs(by), (name, unknown, result[k], by)
 print(f"derivatives agree with differences to {worst:.1e}")
 
-# 4. A force on the buoy takes it along: at rest with it from the start.
+# 4. In initialization mode they are those of the equilibrium, all that is free following: against differences of equilibria found anew.
+still = Line(fmu)
+assert still.setup() == OK and still.call("fmi2EnterInitializationMode") == OK
+assert still.set_real(motion(0.0)) == OK
+RESTING = ["buoy.position.x", "buoy.position.z", "buoy.attitude.pitch", "tanker.force.x", "tanker.moment.y", "hawser.tension", "'leg 1'.tension"]
+found = {}
+for name, small in {"tanker.position.x": 0.02, "tanker.position.z": 0.02, "tanker.attitude.pitch": 2e-4, "buoy.applied_force.x": 1e3}.items():
+    status, result = still.directional(RESTING, name)
+    assert status == OK, still.log
+    value, ends = still.get_real(name)[1][0], []
+    for change in (small, -small):
+        assert still.set_real({name: value + change}) == OK
+        ends.append(still.get_real(*RESTING)[1])
+    assert still.set_real({name: value}) == OK
+    found[name] = [(small * exact, (one - two) / 2) for exact, one, two in zip(result, *ends)]
+assert still.directional(RESTING, "tanker.velocity.x") == (OK, [0.0] * len(RESTING)), "a rate moves nothing at rest"
+# What a small motion of one thing changes little is measured by what the others change.
+sizes = [max(abs(by[k][1]) for by in found.values()) for k in range(len(RESTING))]
+worst = max(abs(exact - by) / size for pairs in found.values() for (exact, by), size in zip(pairs, sizes))
+assert worst < 2e-3, worst
+# Maxwell and Betti: the buoy follows the tanker as the force on the tanker follows one on the buoy.
+follows = still.directional(["buoy.position.x"], "tanker.position.x")[1][0]
+pulls = still.directional(["tanker.force.x"], "buoy.applied_force.x")[1][0]
+assert 0.4 < follows < 0.6 and abs(follows - pulls) < 1e-6, (follows, pulls)
+print(f"derivatives at rest agree with differences to {worst:.1e}, and are reciprocal to {abs(follows - pulls):.0e}")
+
+# 5. A force on the buoy takes it along: at rest with it from the start.
 held = Line(fmu)
 assert held.setup() == OK and held.call("fmi2EnterInitializationMode") == OK
 assert held.set_real({"buoy.applied_force.x": 2.0e5} | motion(0.0)) == OK

@@ -165,6 +165,24 @@ impl Core {
         restored.map_err(|refusal| told(py, &refusal))
     }
 
+    /// Change of outputs at the end of a step as long as the last one per change of inputs at its start, the others held: (outputs, inputs).
+    fn derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        outputs: Vec<String>,
+        inputs: Vec<String>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let (unknowns, knowns) = (self.numbers(py, &outputs)?, self.numbers(py, &inputs)?);
+        let columns = py.detach(|| {
+            let mut instance = self.instance();
+            let column = |known: &u32| instance.directional_derivative(&unknowns, &[*known], &[1.0]);
+            knowns.iter().map(column).collect::<Result<Vec<Vec<f64>>, Refusal>>()
+        });
+        let columns = columns.map_err(|refusal| told(py, &refusal))?;
+        let rows = (0..unknowns.len()).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
+        shaped(py, rows, &[unknowns.len(), knowns.len()])
+    }
+
     /// Stiffness of the mooring against a body that is driven, with everything driven where it is now [N/m, N, N·m].
     fn stiffness<'py>(&self, py: Python<'py>, body: &str) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let driven: Vec<String> = self.scene.bodies.iter().filter(|body| !body.is_free()).map(|body| body.name.clone()).collect();

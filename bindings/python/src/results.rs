@@ -6,13 +6,14 @@ use moorline::error::Error;
 use moorline::report::course::{Course, Follower, Row, Wanted};
 use moorline::report::record::{LineRecord, Record};
 use moorline::report::schedule::Schedule;
-use moorline::report::tables;
+use moorline::report::{tables, vtk};
 use moorline::solve::loads::BodyOutputs;
 use moorline::solve::simulation::{NodeOutput, Outputs};
 use nalgebra::Vector3;
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// How often the interpreter is asked for Ctrl-C, and the progress told.
@@ -27,6 +28,8 @@ struct Attended<'a> {
     end: f64,
     last_row: usize,
     looked: Instant,
+    /// The files for ParaView, where they are wanted.
+    vtk: Option<vtk::Series>,
     /// What it raised.
     raised: Option<PyErr>,
 }
@@ -47,8 +50,8 @@ impl Follower for Attended<'_> {
         })
     }
 
-    fn snapshot(&mut self, _: &Row) -> Result<(), Error> {
-        Ok(())
+    fn snapshot(&mut self, row: &Row) -> Result<(), Error> {
+        self.vtk.as_mut().map_or(Ok(()), |vtk| vtk.snapshot(row))
     }
 
     fn end(&mut self, _: &Record, _: &Row) -> Result<(), Error> {
@@ -56,21 +59,24 @@ impl Follower for Attended<'_> {
     }
 }
 
-/// Runs a scene; its arrays, and the failure that ended it early if one did.
+/// Runs a scene; its arrays, and the failure that ended it early if one did. `vtk`: the directory of files for ParaView.
 #[pyfunction]
 pub fn run<'py>(
     py: Python<'py>,
     source: &Source,
     progress: Option<Py<PyAny>>,
+    vtk: Option<PathBuf>,
 ) -> PyResult<(Bound<'py, PyDict>, Option<Py<PyAny>>)> {
     let loaded = source.load().map_err(|error| raised(py, &error))?;
     let schedule = Schedule::new(&loaded.scene.run);
     let mut record = Record::new(&loaded.scene, &loaded.file, loaded.warnings.clone(), schedule.snapshot_step());
+    let pictures = vtk.map(|directory| vtk::Series::create(&directory, &loaded.scene)).transpose();
     let mut attended = Attended {
         progress: progress.as_ref(),
         end: loaded.scene.run.end(),
         last_row: schedule.rows() - 1,
         looked: Instant::now(),
+        vtk: pictures.map_err(|error| raised(py, &error))?,
         raised: None,
     };
     let outcome = py.detach(|| {

@@ -194,6 +194,46 @@ def test_a_mooring_begins_in_equilibrium_and_its_stiffness_is_that_of_difference
     assert mooring.pose("platform").shape == (6,)
 
 
+def test_the_matrices_of_a_step_are_those_of_differences():
+    """Source: central differences of the step itself, taken back each time; 3e-3 of the largest entry of a block."""
+    mooring = moorline.Mooring(EXAMPLES / "semi-submersible.json")
+    sailed(mooring, 20)
+    state = mooring.save()
+    pose, rate = np.array([1.1, 0.3, 0.1, 0.01, 0.02, 0.05]), np.array([0.5, 0.0, 0.1, 0.0, 0.01, 0.0])
+    found = mooring.linearise("platform", {"platform": pose}, {"platform": rate})
+    assert mooring.time == pytest.approx(2.0)
+
+    def after(pose, rate):
+        mooring.restore(state)
+        return mooring.step(0.1, {"platform": pose}, {"platform": rate})["platform"]
+
+    def turned(axis, angle):
+        """The pose after a small turn about a global axis."""
+        roll, pitch, yaw = pose[3:]
+        x = np.array([[1, 0, 0], [0, math.cos(roll), -math.sin(roll)], [0, math.sin(roll), math.cos(roll)]])
+        y = np.array([[math.cos(pitch), 0, math.sin(pitch)], [0, 1, 0], [-math.sin(pitch), 0, math.cos(pitch)]])
+        z = np.array([[math.cos(yaw), -math.sin(yaw), 0], [math.sin(yaw), math.cos(yaw), 0], [0, 0, 1]])
+        skew = np.cross(np.eye(3), np.eye(3)[axis]) * angle
+        r = (np.eye(3) + skew + 0.5 * skew @ skew) @ z @ y @ x
+        return np.array([*pose[:3], math.atan2(r[2, 1], r[2, 2]), -math.asin(r[2, 0]), math.atan2(r[1, 0], r[0, 0])])
+
+    columns = {"stiffness": [], "damping": []}
+    for axis in range(6):
+        size = 1.0e-3 if axis < 3 else 1.0e-4
+        aside = [pose + sign * size * np.eye(6)[axis] if axis < 3 else turned(axis - 3, sign * size) for sign in (1, -1)]
+        columns["stiffness"].append((after(aside[1], rate) - after(aside[0], rate)) / (2 * size))
+        faster = [rate + sign * size * np.eye(6)[axis] for sign in (1, -1)]
+        columns["damping"].append((after(pose, faster[1]) - after(pose, faster[0])) / (2 * size))
+    for name, expected in columns.items():
+        given, expected = getattr(found, name), np.array(expected).T
+        for rows in (slice(0, 3), slice(3, 6)):
+            for of in (slice(0, 3), slice(3, 6)):
+                assert given[rows, of] == pytest.approx(expected[rows, of], abs=3e-3 * np.abs(expected[rows, of]).max()), name
+    assert (np.diag(found.damping) > 0).all()
+    with pytest.raises(moorline.InputError, match="platform"):
+        mooring.linearise("plattform")
+
+
 def test_a_mooring_of_one_line_moves_its_fairlead():
     """Source: the run of the built-in scene, whose fairlead goes the same way; 0.5 % of the tension."""
     results = moorline.run(None, {"run.duration": 20.0, "run.output_step": 0.05})

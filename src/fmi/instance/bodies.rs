@@ -16,6 +16,7 @@ use crate::rod::pose::PosePath;
 use crate::solve::group::{Differences, EndOf, Group};
 use crate::solve::loads;
 use crate::solve::motion::Path;
+use crate::solve::partition::Together;
 use crate::solve::simulation::Outputs;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -34,6 +35,20 @@ impl Directions {
         let own = self.lines[line] == [[0.0; 3]; 2];
         own && built.lines[line].mounts.iter().flatten().all(|(body, _)| self.bodies[*body] == [[0.0; 3]; 4])
     }
+
+    /// The same without rates, which change no equilibrium.
+    pub fn at_rest(mut self) -> Directions {
+        self.lines.iter_mut().for_each(|orders| orders[1] = [0.0; 3]);
+        self.bodies.iter_mut().for_each(|parts| (parts[2], parts[3]) = ([0.0; 3], [0.0; 3]));
+        self
+    }
+
+    /// Whether they move no end of a line of a group and load none of its bodies.
+    pub fn move_nothing_of(&self, built: &Built, group: usize) -> bool {
+        let together = built.groups[group].together();
+        together.lines.iter().all(|line| self.is_zero_for(built, *line))
+            && together.bodies.iter().all(|body| self.applied[*body] == [[0.0; 3]; 2])
+    }
 }
 
 /// Change of everything that outputs are made of.
@@ -45,6 +60,19 @@ pub(super) struct Changes {
     /// The outputs of lines that change, and position and angles of all bodies, at the time of the change.
     pub outputs: Vec<Option<Outputs>>,
     pub poses: Vec<[Vector3<f64>; 2]>,
+}
+
+impl Changes {
+    /// Takes over the changes of a group, the next one.
+    fn take(&mut self, together: &Together, of: Differences) {
+        for (number, line) in together.lines.iter().enumerate() {
+            (self.lines[*line], self.outputs[*line]) = (Some(of.lines[number]), Some(of.outputs[number]));
+        }
+        for ((body, change), pose) in together.bodies.iter().zip(of.bodies).zip(of.poses) {
+            (self.bodies[*body], self.poses[*body]) = (change, pose);
+        }
+        self.points.extend(of.points);
+    }
 }
 
 /// Change of the path of a fairlead given by coordinates, along a direction of its inputs.
@@ -69,15 +97,24 @@ const SHARE: f64 = 1.0e-2;
 /// Force that counts as a displacement of one metre [N].
 const FORCE: f64 = 1.0e5;
 
+/// What is differentiated.
+#[derive(Debug, Clone, Copy)]
+enum When {
+    /// A step up to a time [s].
+    Step(f64),
+    /// Equilibrium at a time [s].
+    Rest(f64),
+}
+
 /// The path of a body and that of its variation, where it varies.
 type Varied = Option<(Arc<PosePath>, Arc<PosePath>)>;
 
 impl Built {
-    /// Differences of what a group tells about itself at a time, along directions.
+    /// Differences of what a group tells about itself after a step or in equilibrium, along directions.
     fn group_differences(
         &mut self,
         number: usize,
-        until: f64,
+        when: When,
         directions: &Directions,
         paths: &[Varied],
         moment: &Moment,
@@ -119,7 +156,13 @@ impl Built {
                     }
                     segment.path()
                 });
-                let fairlead = moved.or_else(|| on(0)).unwrap_or_else(|| line.ends.fairlead.clone());
+                let aside = match (when, &line.ends.fairlead) {
+                    (When::Rest(_), Path::Fixed(place)) => {
+                        Some(Path::Fixed(place + Vector3::from(directions.lines[*index][0]) * share))
+                    }
+                    _ => None,
+                };
+                let fairlead = moved.or(aside).or_else(|| on(0)).unwrap_or_else(|| line.ends.fairlead.clone());
                 group.drive(local, EndOf::Fairlead, &fairlead);
                 group.drive(local, EndOf::Anchor, &on(1).unwrap_or_else(|| line.ends.anchor.clone()));
             }
@@ -136,7 +179,10 @@ impl Built {
                 }
             }
         };
-        group.derivative(until, SHARE / size, drive)
+        match when {
+            When::Step(until) => group.derivative(until, SHARE / size, drive),
+            When::Rest(time) => group.static_derivative(time, SHARE / size, drive),
+        }
     }
 }
 
@@ -313,23 +359,21 @@ impl Instance {
         Ok(())
     }
 
-    /// Changes of outputs in equilibrium along directions of the poses; velocities change nothing there.
+    /// Changes of outputs in equilibrium along directions of the poses and of the forces applied to free bodies; rates change nothing there.
     pub(super) fn static_changes(&mut self, directions: &Directions) -> Result<Changes, Refusal> {
         let built = self.built.as_mut().ok_or(Refusal::UnknownState)?;
-        let mut of_bodies = Vec::new();
+        let time = self.moment.clock;
+        let (mut paths, mut of_bodies): (Vec<Varied>, Vec<_>) = (Vec::new(), Vec::new());
         for (index, of) in built.vessels.iter().enumerate() {
             let [position, angles, ..] =
                 directions.bodies[index].map(|values| Vector3::from(built.conventions[index].turned(values)));
-            let q = of.path.pose(self.moment.clock)[1];
+            let q = of.path.pose(time)[1];
             of_bodies.push(vec![position, rotation::rates_to_omega(&q) * angles]);
+            paths.push(Some((Arc::clone(&of.path), Arc::new(PosePath::Fixed { position, angles }))));
         }
         let mut lines = vec![None; built.lines.len()];
         for index in 0..built.lines.len() {
-            if directions.is_zero_for(built, index) {
-                continue;
-            }
             let line = &mut built.lines[index];
-            let time = self.moment.clock;
             let ends = [line.ends.fairlead.at(time).position, line.ends.anchor.at(time).position];
             let moved = |end: usize, own: Vector3<f64>| match &line.mounts[end] {
                 Some((body, at)) => {
@@ -339,18 +383,25 @@ impl Instance {
                 None => own,
             };
             let ways = [moved(0, Vector3::from(directions.lines[index][0])), moved(1, Vector3::zeros())];
-            let What::Own(simulation) = &mut line.what else {
-                let (name, role) = (self.interface.prefix(index), "a known");
-                let allowed = "in initialization mode, what moves lines that meet at free bodies and points has no derivatives";
-                return Err(Refusal::Direction { name, role, allowed });
-            };
-            if ways.iter().any(|way| *way != Vector3::zeros()) {
+            if let What::Own(simulation) = &mut line.what
+                && ways.iter().any(|way| *way != Vector3::zeros())
+            {
                 lines[index] = Some(simulation.static_derivative_ends(ends, ways).map_err(Refusal::Solver)?);
             }
         }
-        let poses = built.vessels.iter().map(|of| of.path.pose(self.moment.clock)).collect();
+        let poses = built.vessels.iter().map(|of| of.path.pose(time)).collect();
         let outputs = vec![None; lines.len()];
-        Ok(Changes { lines, bodies: of_bodies, points: Vec::new(), outputs, poses })
+        let mut changes = Changes { lines, bodies: of_bodies, points: Vec::new(), outputs, poses };
+        for group in 0..built.groups.len() {
+            if directions.move_nothing_of(built, group) {
+                let points = built.groups[group].together().points.len();
+                changes.points.resize(changes.points.len() + points, [Vector3::zeros(); 2]);
+                continue;
+            }
+            let differences = built.group_differences(group, When::Rest(time), directions, &paths, &self.moment);
+            changes.take(built.groups[group].together(), differences.map_err(Refusal::Solver)?);
+        }
+        Ok(changes)
     }
 
     /// Changes at a time along directions of the inputs now.
@@ -377,7 +428,7 @@ impl Instance {
         }
         let mut lines = vec![None; built.lines.len()];
         let mut outputs = vec![None; built.lines.len()];
-        let mut poses: Vec<[Vector3<f64>; 2]> = built.vessels.iter().map(|of| of.path.pose(until)).collect();
+        let poses: Vec<[Vector3<f64>; 2]> = built.vessels.iter().map(|of| of.path.pose(until)).collect();
         for index in 0..built.lines.len() {
             if directions.is_zero_for(built, index) || !built.lines[index].is_own() {
                 continue;
@@ -406,18 +457,11 @@ impl Instance {
             lines[index] = Some(simulation.derivative_ends(steps, &variation, anchor.as_ref()).map_err(Refusal::Solver)?);
             outputs[index] = simulation.outputs_at_end(steps);
         }
-        let mut points = Vec::new();
+        let mut changes = Changes { lines, bodies: of_bodies, points: Vec::new(), outputs, poses };
         for group in 0..built.groups.len() {
-            let differences = built.group_differences(group, until, directions, &paths, &self.moment).map_err(Refusal::Solver)?;
-            let together = built.groups[group].together();
-            for (number, line) in together.lines.iter().enumerate() {
-                (lines[*line], outputs[*line]) = (Some(differences.lines[number]), Some(differences.outputs[number]));
-            }
-            for ((body, change), pose) in together.bodies.iter().zip(differences.bodies).zip(differences.poses) {
-                (of_bodies[*body], poses[*body]) = (change, pose);
-            }
-            points.extend(differences.points);
+            let differences = built.group_differences(group, When::Step(until), directions, &paths, &self.moment);
+            changes.take(built.groups[group].together(), differences.map_err(Refusal::Solver)?);
         }
-        Ok(Changes { lines, bodies: of_bodies, points, outputs, poses })
+        Ok(changes)
     }
 }

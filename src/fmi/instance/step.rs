@@ -221,7 +221,7 @@ impl Instance {
         }
         let changes = if self.moment.phase == Phase::Initialization {
             self.settle()?;
-            self.static_changes(&directions)?
+            self.static_changes(&directions.at_rest())?
         } else {
             let until = self.moment.clock + self.moment.last_step_size;
             self.plan(until)?;

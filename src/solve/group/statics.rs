@@ -312,11 +312,15 @@ impl Group {
         self.moment.state = state;
         self.moment.earlier.fill(0.0);
         (self.moment.last_step, self.moment.step, self.moment.tried, self.moment.guard) = (0.0, self.demands.max_step, 0.0, 0);
-        let errors = self.simulations.iter().map(|simulation| simulation.demands().error).filter(|error| *error > 0.0);
-        let finest = errors.fold(f64::INFINITY, f64::min);
+        let finest = self.simulations.iter().map(|simulation| simulation.demands().error).filter(|error| *error > 0.0);
+        let finest = finest.fold(f64::INFINITY, f64::min);
         if finest.is_finite() {
             self.demands.error = finest;
         }
+        for (own, simulation) in self.errors.iter_mut().zip(&self.simulations) {
+            *own = simulation.demands().error.max(self.demands.error);
+        }
+        self.network.allow(&self.errors, self.demands.error);
         self.emphasise();
         self.newton.forget();
         self.newton.effort = Effort::default();

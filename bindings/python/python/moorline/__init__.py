@@ -19,10 +19,11 @@ from numpy.typing import ArrayLike
 
 from moorline import _moorline, _results
 from moorline._errors import ConvergenceError, Error, InputError, Warning
-from moorline._mooring import Mooring
+from moorline._mooring import Linearised, Mooring
 from moorline._moorline import __version__
 from moorline._results import BodyResults, BodyStatics, Fit, LineResults, LineStatics, Offsets, Results, Statics
 from moorline._scene import Scene, source, warn
+from moorline._sweep import sweep
 
 __all__ = [
     "BodyResults",
@@ -33,6 +34,7 @@ __all__ = [
     "InputError",
     "LineResults",
     "LineStatics",
+    "Linearised",
     "Mooring",
     "Offsets",
     "Results",
@@ -47,6 +49,7 @@ __all__ = [
     "run",
     "schema",
     "statics",
+    "sweep",
 ]
 
 _Changes = Optional[Mapping[str, Any]]
@@ -73,12 +76,18 @@ def statics(scene: Scene = None, changes: _Changes = None) -> Statics:
     return found
 
 
-def run(scene: Scene = None, changes: _Changes = None, progress: Callable[[float, float], object] | None = None) -> Results:
+def run(
+    scene: Scene = None,
+    changes: _Changes = None,
+    progress: Callable[[float, float], object] | None = None,
+    vtk: str | os.PathLike[str] | None = None,
+) -> Results:
     """Statics, then dynamics; the rows are those of the command's timeseries.csv.
 
     ``progress`` is called with the time reached and the last time [s], some twenty times a second; what it raises ends the run, and so does
-    Ctrl-C. Other threads go on meanwhile. Raises `InputError`, and `ConvergenceError` whose ``results`` hold what came before."""
-    arrays, failure = _moorline.run(source(scene, changes), progress)
+    Ctrl-C. Other threads go on meanwhile. ``vtk`` is a directory for ParaView: the snapshots as lines.pvd, and bodies.pvd where there are
+    bodies or free points. Raises `InputError`, and `ConvergenceError` whose ``results`` hold what came before."""
+    arrays, failure = _moorline.run(source(scene, changes), progress, vtk)
     found = _results.results(arrays, json.loads(arrays["summary"]))
     warn(found.warnings)
     if failure is not None:

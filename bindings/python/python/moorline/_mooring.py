@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, Optional
 
 import numpy as np
@@ -20,6 +21,16 @@ _APPLIED = ("applied_force.x", "applied_force.y", "applied_force.z", "applied_mo
 _FAIRLEAD = ("fairlead.position.x", "fairlead.position.y", "fairlead.position.z")
 _FAIRLEAD_RATES = ("fairlead.velocity.x", "fairlead.velocity.y", "fairlead.velocity.z")
 _Given = Optional[Mapping[str, ArrayLike]]
+
+
+@dataclass(frozen=True)
+class Linearised:
+    """How the loads of the lines on a driven body, at the end of a step, answer to its motion at the start of it."""
+
+    stiffness: NDArray[float64]
+    """(6, 6) minus the change of force and moment with displacement along and turn about the global axes [N/m, N, N m]."""
+    damping: NDArray[float64]
+    """(6, 6) minus their change with velocity and angular velocity along the global axes [N s/m, N s, N m s]."""
 
 
 class Mooring:
@@ -91,6 +102,30 @@ class Mooring:
         """(6, 6) static stiffness of the mooring against a driven body, with all that is driven where it was last put and no load on free bodies:
         minus the change of force and moment with displacement along and turn about the global axes [N/m, N, N m]."""
         return self._core.stiffness(body)
+
+    def linearise(self, body: str, poses: _Given = None, rates: _Given = None, loads: _Given = None) -> Linearised:
+        """What a body feels of the mooring in one step: the change of its loads at the end of a step as long as the last one (0.1 s before
+        the first) with its pose and with its rates at the start, all else that is driven held. `poses`, `rates` and `loads` are those of the
+        present time, as in `step`, of which it is the derivative. These are the directional derivatives of the scene's FMU: the step is
+        differentiated along the way that the body would go, not taken.
+
+        A displacement is taken up within the step, or 0.1 s if that is longer, and a velocity goes on over it: both matrices hold what the
+        inertia and the drag of the lines make of that, and `damping` the stiffness times the way gone. In long steps they are the forces of
+        slow motion; `stiffness` is the matrix of statics."""
+        front, _ = self._part(body, ("driven",), "driven body")
+        self._core.set(*self._inputs(poses, rates, loads))
+        change = -self._core.derivatives([front + stem for stem in _LOADS], [front + stem for stem in (*_POSE, *_RATES)])
+        # From angles to turns about the global axes: their rates are omega = E dq/dt.
+        _, pitch, yaw = self._core.get([front + stem for stem in _POSE[3:]])
+        turned = np.array(
+            [
+                [np.cos(yaw) * np.cos(pitch), -np.sin(yaw), 0.0],
+                [np.sin(yaw) * np.cos(pitch), np.cos(yaw), 0.0],
+                [-np.sin(pitch), 0.0, 1.0],
+            ]
+        )
+        change[:, 3:6] = change[:, 3:6] @ np.linalg.inv(turned)
+        return Linearised(stiffness=change[:, :6].copy(), damping=change[:, 6:].copy())
 
     def save(self) -> bytes:
         """The state, also for another `Mooring` of the same scene."""

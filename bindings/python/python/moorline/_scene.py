@@ -6,7 +6,7 @@ import json
 import os
 import warnings
 from collections.abc import Mapping
-from typing import Any, Union
+from typing import Any, NamedTuple, Union
 
 from moorline._errors import InputError, Warning
 from moorline._moorline import Source
@@ -26,14 +26,31 @@ def _plain(value: Any) -> Any:
     raise TypeError
 
 
-def source(scene: Scene, changes: Mapping[str, Any] | None = None) -> Source:
-    """A scene with changes, not read yet."""
-    sets = [f"{place}={_text(place, value)}" for place, value in (changes or {}).items()]
+class Parts(NamedTuple):
+    """A scene that can travel: a file, or text with the folder that its paths are relative to; neither is the built-in case."""
+
+    path: str | None
+    text: str | None
+    directory: str
+
+
+def parts(scene: Scene) -> Parts:
+    """A scene, not read yet."""
     if isinstance(scene, Mapping):
-        return Source(None, _text("scene", dict(scene)), ".", sets)
+        return Parts(None, _text("scene", dict(scene)), ".")
     if scene is not None and not isinstance(scene, (str, os.PathLike)):
         raise InputError(f"a scene is a dict, the path of a file or None, not {type(scene).__name__}")
-    return Source(scene, None, ".", sets)
+    return Parts(None if scene is None else os.fspath(scene), None, ".")
+
+
+def sourced(scene: Parts, changes: Mapping[str, Any] | None = None) -> Source:
+    """A scene with changes, not read yet."""
+    return Source(scene.path, scene.text, scene.directory, [f"{place}={_text(place, value)}" for place, value in (changes or {}).items()])
+
+
+def source(scene: Scene, changes: Mapping[str, Any] | None = None) -> Source:
+    """The same of a scene as a user gives it."""
+    return sourced(parts(scene), changes)
 
 
 def _text(place: str, value: Any) -> str:
