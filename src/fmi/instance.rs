@@ -384,7 +384,8 @@ impl Instance {
             vessel.settle(&built.conventions[index], of.arm, start);
         }
         let said: Vec<Said> = self.moment.vessels.iter().map(|vessel| vessel.said).collect();
-        let reports = built.settle(start, &said, self.let_go).map_err(|error| self.refusal(error))?;
+        let reports =
+            built.settle(start, &said, self.let_go.then(|| self.interface.scene())).map_err(|error| self.refusal(error))?;
         for (index, report) in reports.into_iter().enumerate() {
             let outputs = built.outputs(index);
             if !is_finite(&outputs) {

@@ -156,7 +156,10 @@ impl Built {
         let of_groups = self
             .groups
             .iter_mut()
-            .map(|group| if held { group.hold(time) } else { group.settle(time) })
+            .map(|group| match held {
+                Some(scene) => group.hold(time, scene),
+                None => group.settle(time),
+            })
             .collect::<Result<Vec<_>, Error>>()?;
         let line = |line: &mut BuiltLine| match &mut line.what {
             What::Own(simulation) => {
