@@ -31,6 +31,7 @@ pub mod algebra {
     pub mod block_tridiagonal;
     pub mod definite;
     pub mod dimension;
+    pub mod fourier;
     pub mod lanes;
     pub mod polynomial;
     pub mod real;
@@ -38,6 +39,7 @@ pub mod algebra {
     pub mod shape;
     pub mod sinusoid;
     pub mod spline;
+    pub mod stokes;
     pub mod tensor;
     pub mod triple;
 }
@@ -47,6 +49,8 @@ pub mod scene {
     pub mod bodies;
     pub mod cable;
     pub mod check;
+    pub mod current_file;
+    pub mod elevation_file;
     pub mod load_file;
     pub mod moordyn;
     pub mod motion_file;
@@ -99,8 +103,12 @@ pub mod sea {
     pub mod drawing;
     pub mod figures;
     pub mod near;
+    pub mod random;
     pub mod series;
     pub mod spectrum;
+    pub mod spreading;
+    pub mod stream;
+    pub mod stretching;
     pub mod wave;
     pub mod waves;
 }

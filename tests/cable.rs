@@ -4,7 +4,7 @@ mod support;
 
 use moorline::scene::cable::{Deck, Job, MotionKind, forced_motion, from_scene, reading, to_scene, turned, turned_back, writing};
 use moorline::scene::read::{Loaded, load, parse};
-use moorline::scene::types::{Motion, Scene, Stretch, Surface, Waves};
+use moorline::scene::types::{Motion, Scene, Stretch, Surface};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -216,7 +216,7 @@ fn scene_to_file_to_scene_keeps_everything_it_promises() {
         serde_json::from_str(r#"[{"z": 0.0, "velocity": [0.5, 0.25, 0.0]}, {"z": -60.0, "velocity": [0.125, 0.0, 0.0]}]"#)
             .unwrap();
     scene.environment.waves =
-        Some(Waves::Regular { amplitude: 1.0, period: 10.0, direction_deg: 0.0, phase_deg: 0.0, ramp: Some(0.0) });
+        Some(serde_json::from_str(r#"{"kind": "regular", "amplitude": 1, "period": 10, "ramp": 0}"#).unwrap());
     scene.motion = Motion::Sinusoidal { period: 12.0, sine: [1.0, 0.5, -0.25], cosine: [0.0, 0.0, 0.125], ramp: None };
     let written = from_scene::deck(&scene, &meaning.state, "scene.json").unwrap_or_else(|error| panic!("{error}"));
     let read = reading::read(&writing::text(&written.deck), "scene.dat").unwrap_or_else(|error| panic!("{error}"));

@@ -4,7 +4,7 @@
 
 use moorline::error::Error;
 use moorline::scene::read::{Loaded, built_in, load, parse, schema};
-use moorline::scene::types::{Motion, Scene, Scheme, Stretch, Surface, Waves};
+use moorline::scene::types::{Motion, Scene, Scheme, Seas, Stretch, Surface, Waves};
 use moorline::scene::{check, motion_file};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -593,7 +593,7 @@ fn a_scene_with_every_supported_key_is_read_and_survives_writing() {
     let loaded = load(&data().join("all-keys.json"), &[]).expect("all keys are good");
     let scene = &loaded.scene;
     assert_eq!((scene.environment.seabed.slope_deg, scene.environment.surface), ([1.0, -2.0], Surface::None));
-    let Some(Waves::Regular { amplitude, phase_deg, ramp, .. }) = &scene.environment.waves else { panic!("no waves") };
+    let Some(Seas::One(Waves::Regular { amplitude, phase_deg, ramp, .. })) = &scene.environment.waves else { panic!("no waves") };
     assert_eq!((*amplitude, *phase_deg, *ramp), (2.0, 90.0, Some(15.0)));
     assert_eq!((scene.environment.current[1].z, scene.line_types["rope"].buoyancy), (-120.0, Some(170.171)));
     assert_eq!((scene.lines[0].sections[0].elements, scene.lines[1].name.as_str()), (Some(10), "line2"));

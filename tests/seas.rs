@@ -185,7 +185,10 @@ fn figures_say_what_breaks() {
 /// Every kind of the scene reaches its spectrum; the default of the ramp is the longest peak period; a sea without energy is calm.
 #[test]
 fn scenes_are_drawn_from_their_spectra() {
-    let sea = |text: &str| drawn(&serde_json::from_str::<Waves>(text).expect(text));
+    let sea = |text: &str| {
+        let sea = serde_json::from_str::<Waves>(text).expect(text);
+        drawn(&sea, sea.seed().unwrap_or(0), G, 100.0)
+    };
     let full_grown = sea(r#"{"kind": "pierson-moskowitz", "hs": 5, "tp": 12, "seed": 4}"#);
     assert_eq!(full_grown, sea(r#"{"kind": "jonswap", "hs": 5, "tp": 12, "gamma": 1, "seed": 4}"#));
     assert_eq!((full_grown.waves.len(), full_grown.ramp), (200, 12.0));

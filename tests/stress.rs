@@ -156,11 +156,30 @@ fn wavy_trial(seed: u64) -> Trial {
     let period = random.between(4.0, 16.0);
     let height = random.between(0.1, 1.0) * (0.2 * scene.environment.depth).min(0.04 * 1.56 * period * period);
     let (direction_deg, ramp) = (random.between(0.0, 360.0), Some(2.0));
-    scene.environment.waves = Some(if random.share() < 0.5 {
-        Waves::Regular { amplitude: 0.5 * height, period, direction_deg, phase_deg: random.between(0.0, 360.0), ramp }
+    let sea = if random.share() < 0.5 {
+        Waves::Regular {
+            amplitude: 0.5 * height,
+            period,
+            direction_deg,
+            phase_deg: random.between(0.0, 360.0),
+            ramp,
+            stretching: None,
+        }
     } else {
-        Waves::Jonswap { hs: height, tp: period, gamma: 3.3, seed, components: 50, direction_deg, cut_off: None, ramp }
-    });
+        Waves::Jonswap {
+            hs: height,
+            tp: period,
+            gamma: 3.3,
+            seed,
+            components: 50,
+            direction_deg,
+            cut_off: None,
+            ramp,
+            spreading: None,
+            stretching: None,
+        }
+    };
+    scene.environment.waves = Some(sea.into());
     scene.run.duration = 6.0;
     trial_of("random, in waves", seed, scene)
 }

@@ -1,14 +1,16 @@
 //! `moorline check`: what a run of the scene would model, leave out and cost. Nothing is solved.
 
+use crate::algebra::stokes::{self, Stokes};
 use crate::cli::arguments::SceneArguments;
 use crate::cli::console::{self, on_terminal};
 use crate::cli::stop::Stop;
 use crate::report::schedule::Schedule;
 use crate::report::units::{count, sim_time, wall_time};
 use crate::scene::read::Loaded;
-use crate::scene::types::{Environment, Motion, Scene};
+use crate::scene::types::{Environment, Motion, Scene, Waves};
 use crate::sea::drawing;
 use crate::sea::figures::Figures;
+use crate::sea::wave::Wave;
 use crate::solve::motion::Ends;
 use crate::solve::partition::{self, Together};
 use crate::solve::simulation::{Decision, Simulation};
@@ -35,7 +37,7 @@ pub fn check(arguments: &SceneArguments) -> Result<(), Stop> {
     };
     let lines: Vec<Simulation> = (0..loaded.scene.lines.len()).map(line).collect::<Result<_, _>>()?;
     let mut text = header(&loaded);
-    text += &sea(&loaded.scene);
+    text += &seas(&loaded.scene);
     text += &coupling(&loaded.scene, &parts);
     for (line, simulation) in loaded.scene.lines.iter().zip(&lines) {
         let _ = writeln!(text, "\nLine \"{}\": {} m", on_terminal(&line.name), line.length());
@@ -60,17 +62,75 @@ fn header(loaded: &Loaded) -> String {
     format!("{title}{}: a good scene; {}, {motion}\n", on_terminal(&loaded.file), count(scene.lines.len(), "line"))
 }
 
-/// What the sea is, computed back from its components; nothing where it is calm.
-fn sea(scene: &Scene) -> String {
-    let Environment { gravity, depth, waves, .. } = &scene.environment;
-    let Some(waves) = waves.as_ref().map(|waves| drawing::drawn(waves).waves) else { return String::new() };
-    let Some(sea) = Figures::of(&waves, *gravity, *depth) else { return String::new() };
+/// What each sea is, computed back from its components; nothing where it is calm.
+fn seas(scene: &Scene) -> String {
+    let Some(seas) = &scene.environment.waves else { return String::new() };
+    let drawn = drawing::seas(&scene.environment);
+    let several = drawn.len() > 1;
+    let mut text = String::new();
+    for (index, (given, drawn)) in seas.each().iter().zip(&drawn).enumerate() {
+        let name = if several { format!("Sea {}", index + 1) } else { String::from("Sea") };
+        text += &sea(&scene.environment, &name, &drawn.waves);
+        if let Some((wave, _)) = &drawn.steady {
+            text += &steady(given, wave, scene.environment.depth);
+        }
+        text += &record(given);
+        if let Some(spreading) = given.spreading() {
+            let s = spreading.exponent();
+            let deviation = (2.0 / (1.0 + s)).sqrt().to_degrees();
+            let _ = writeln!(
+                text,
+                "     spread over {} directions, s {s:.2}, standard deviation {deviation:.1} deg",
+                spreading.directions
+            );
+        }
+    }
+    if several {
+        let all: Vec<Wave> = drawn.into_iter().flat_map(|sea| sea.waves).collect();
+        text += &sea(&scene.environment, "All seas", &all);
+    }
+    text
+}
+
+/// What a steady wave of the fifth order is.
+fn steady(sea: &Waves, wave: &Stokes, depth: f64) -> String {
+    let (Waves::Regular5th { height, period, .. }, length) = (sea, wave.length()) else { return String::new() };
+    let crest: f64 = wave.elevations.iter().sum();
+    format!(
+        "\nSea: H {height:.3} m, T {period:.2} s, fifth order; {length:.1} m long, steepness H/L {:.4}, crest {crest:.3} m above still water; \
+         it breaks at {:.2} m, and H L²/d³ is {:.3} of {}\n",
+        height / length,
+        stokes::highest(length, depth),
+        height * length * length / depth.powi(3),
+        stokes::LONGEST
+    )
+}
+
+/// What of a record of an elevation is used.
+fn record(sea: &Waves) -> String {
+    let (Some(record), Waves::Elevation { at: [x, y], cut_off, .. }) = (sea.record(), sea) else { return String::new() };
+    let left_out = 1.0 - record.variance(record.cut_off(*cut_off)) / record.variance(f64::INFINITY);
+    format!(
+        "     from a record at ({x}, {y}) of {} steps of {:.6} s, which comes again after {:.6} s; its mean of {:.4} m is left out, and {:.2} % \
+         of its energy, above {:.4} Hz\n",
+        (record.period / record.step).round(),
+        record.step,
+        record.period,
+        record.mean,
+        100.0 * left_out,
+        record.cut_off(*cut_off)
+    )
+}
+
+/// What components make.
+fn sea(environment: &Environment, name: &str, waves: &[Wave]) -> String {
+    let Some(sea) = Figures::of(waves, environment.gravity, environment.depth) else { return String::new() };
     let Figures { height, period, band: [low, high], length, steepness, steepest } = sea;
     let (symbol, of) = if waves.len() == 1 { (["H", "T"], "a wave") } else { (["Hs", "Tp"], "a sea") };
     let [h, t] = symbol;
     let band = if waves.len() == 1 { String::new() } else { format!(", components from {low:.4} to {high:.4} Hz (cut-off)") };
     let mut text = format!(
-        "\nSea: {h} {height:.3} m, {t} {period:.2} s{band}; a wave of {t} is {length:.1} m long, steepness {h}/L {steepness:.4}\n"
+        "\n{name}: {h} {height:.3} m, {t} {period:.2} s{band}; a wave of {t} is {length:.1} m long, steepness {h}/L {steepness:.4}\n"
     );
     if sea.breaks() {
         let _ = writeln!(

@@ -692,7 +692,13 @@ fn uses_scene_names(scene: &Scene) -> bool {
     let one_bed = scene.environment.seabed.stiffness.is_some() || types.all(|other| Some(bed_stiffness(scene, other)) == first);
     let meets = !scene.points.is_empty() || scene.lines.iter().any(|line| line.anchor_on.is_some());
     let free = scene.bodies.iter().any(crate::scene::bodies::Body::is_free);
-    !plain || meets || free || !one_bed || scene.environment.waves.is_some() || !scene.environment.current.is_empty()
+    !plain
+        || meets
+        || free
+        || !one_bed
+        || scene.environment.waves.is_some()
+        || scene.environment.current_over_time.is_some()
+        || !scene.environment.current.is_empty()
 }
 
 /// Keys of the scene whose numbers are inputs.

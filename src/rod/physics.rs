@@ -305,8 +305,14 @@ pub fn decisions(scene: &Scene, mesh: &Mesh, supports: &Supports) -> Vec<Decisio
             "the scene gives a profile",
             "the water stands still",
         ),
+        decide(
+            "current over time",
+            scene.environment.current_over_time.is_some(),
+            "the scene gives profiles: as in waves, lines are solved in space and never rest",
+            "the scene gives none",
+        ),
         match Waves::of(&scene.environment) {
-            Some(waves) => {
+            Some(waves) if waves.components() > 0 => {
                 let kind = if waves.components() == 1 { "1 component" } else { "components" };
                 let count = if waves.components() == 1 { String::new() } else { format!("{} ", waves.components()) };
                 let reach = match waves.floor() {
@@ -315,7 +321,7 @@ pub fn decisions(scene: &Scene, mesh: &Mesh, supports: &Supports) -> Vec<Decisio
                 };
                 Decision { physics: "waves", on: true, reason: format!("{count}{kind}; {reach}") }
             }
-            None => decide("waves", false, "", "the scene gives none"),
+            _ => decide("waves", false, "", "the scene gives none"),
         },
         decide("seabed", true, "elements that touch it pay for it, others only for a look at their height", ""),
         decide("seabed damping", scene.environment.seabed.damping > 0.0, "seabed.damping > 0", "seabed.damping is 0"),

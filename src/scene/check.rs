@@ -24,13 +24,14 @@ pub use motion::motion_table;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 36] = [
+const RULES: [Rule; 37] = [
     environment::gravity,
     environment::water_density,
     environment::depth,
     environment::seabed,
     environment::slope,
     environment::current,
+    environment::current_over_time,
     waves::waves,
     line_types::line_types_exist,
     line_types::line_type_names,

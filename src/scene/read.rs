@@ -10,8 +10,8 @@ use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
 use crate::scene::moordyn;
 use crate::scene::state::LineState;
 use crate::scene::text::{char_start, decode, decode_leniently, line_and_column, read_bytes};
-use crate::scene::types::{Motion, Scene, Scheme};
-use crate::scene::{check, load_file, motion_file, pose_file};
+use crate::scene::types::{Motion, Scene, Scheme, Seas, Waves};
+use crate::scene::{check, current_file, elevation_file, load_file, motion_file, pose_file};
 use place::{Place, Step, shortened};
 use serde_json::Value;
 use setting::Applied;
@@ -208,8 +208,27 @@ fn typed(value: &Value, source: &Source) -> Result<Scene, Error> {
     Ok(scene)
 }
 
-/// Reads the files of motions and loads that a checked scene names.
+/// Reads the files of motions and loads that a checked scene names. What the water does comes into the scene itself.
 fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
+    let directory = &loaded.directory;
+    let records = loaded.scene.environment.waves.as_mut().map_or(&mut [][..], Seas::each_mut);
+    let mut records_read = false;
+    for sea in records {
+        if let Waves::Elevation { path, series, .. } = sea
+            && let Some(path) = path.take()
+        {
+            *series = Some(elevation_file::read(&directory.join(path))?);
+            records_read = true;
+        }
+    }
+    if records_read {
+        check::check(&loaded.scene, &loaded.file)?;
+    }
+    if let Some(current) = &mut loaded.scene.environment.current_over_time
+        && let Some(path) = current.path.take()
+    {
+        current.rows = Some(current_file::read(&directory.join(path))?);
+    }
     for body in &loaded.scene.bodies {
         let load = body.load.as_ref().map(|path| load_file::read(&loaded.directory.join(path)).map(Arc::new));
         loaded.body_loads.push(load.transpose()?);

@@ -1,4 +1,4 @@
-//! Rows of numbers of a CSV file with named columns, the first of them time, which rises.
+//! Rows of numbers of a CSV file with named columns, the first of them time, which rises or, where rows make profiles, does not fall.
 //!
 //! A first line with the names is allowed, and so are empty lines and comments after `#`.
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "conditions are written so that NaN fails them")]
@@ -15,6 +15,22 @@ pub(super) fn refuse<T>(file: &str, line: usize, value: impl Into<String>, allow
 
 /// The rows of a text; `units` says what the columns are in, `what` what the rows are of.
 pub(super) fn read<const N: usize>(
+    text: &str,
+    file: &str,
+    columns: [&str; N],
+    units: &str,
+    what: &str,
+) -> Result<Vec<Row<N>>, Error> {
+    let rows = read_profiles(text, file, columns, units, what)?;
+    if let Some(pair) = rows.windows(2).find(|pair| !(pair[1].1[0] > pair[0].1[0])) {
+        let allowed = format!("times must rise, and the row before has t = {}", pair[0].1[0]);
+        return refuse(file, pair[1].0, format!("t = {}", pair[1].1[0]), allowed);
+    }
+    Ok(rows)
+}
+
+/// The same where several rows may have one time.
+pub(super) fn read_profiles<const N: usize>(
     text: &str,
     file: &str,
     columns: [&str; N],
@@ -55,12 +71,6 @@ pub(super) fn read<const N: usize>(
                 Ok(read) if read.abs() <= 1.0e15 => *value = read,
                 _ => return refuse(file, number, format!("{name} = \"{field}\""), "it must be a finite number"),
             }
-        }
-        if let Some((_, before)) = rows.last()
-            && !(row[0] > before[0])
-        {
-            let allowed = format!("times must rise, and the row before has t = {}", before[0]);
-            return refuse(file, number, format!("t = {}", row[0]), allowed);
         }
         rows.push((number, row));
     }

@@ -15,7 +15,7 @@ mod vector;
 mod waves;
 
 use crate::scene::bodies::{Body, Point};
-pub use environment::{CurrentPoint, Environment, Seabed, Surface};
+pub use environment::{CurrentOverTime, CurrentPoint, Environment, Seabed, Surface};
 pub use line::{Line, SAME_PLACE, Section};
 pub use line_type::{InnerFluid, LineType, NormalTangential};
 pub use motion::Motion;
@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 pub use solver::{Scheme, Solver, Stretch};
 use std::collections::BTreeMap;
 pub use vector::Triple;
-pub use waves::{OchiHubblePart, WaveComponent, Waves, variance};
+pub use waves::{OchiHubblePart, Seas, Spreading, Stretching, WaveComponent, Waves, variance};
 
 /// A moorline scene: environment, line types, lines, fairlead motion and run settings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -18,7 +18,9 @@
 
 use crate::algebra::lanes::Lanes;
 use crate::algebra::real::{MOST_LANES, Real, padded};
+use crate::scene::types::Stretching;
 use crate::sea::series::cos_sin;
+use crate::sea::stretching::{Level, SHALLOWEST};
 use crate::sea::wave::wave_number;
 use pulp::{Arch, Simd, WithSimd};
 use std::f64::consts::{PI, TAU};
@@ -77,12 +79,12 @@ pub struct Water {
     pub gravity: f64,
     /// d [m].
     pub depth: f64,
-    /// The water is never reckoned shallower than this [m].
-    pub shallowest: f64,
     /// Significant wave height [m].
     pub height: f64,
     /// Direction of travel, from +x towards +y [rad].
     pub direction: f64,
+    /// How motions are carried to the surface.
+    pub stretching: Stretching,
 }
 
 /// Components of one direction, with a memory of the sums last taken.
@@ -239,6 +241,18 @@ impl Near {
     pub fn sums(&self, count: usize, time: f64, easing: f64, places: &[[f64; MOST_LANES]; 3]) -> [[f64; MOST_LANES]; 6] {
         let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         self.plan.processor.dispatch(Sums { plan: &self.plan, memory: &mut memory, count, time, easing, places })
+    }
+
+    /// Adds the sums of velocities and accelerations at levels that are known already, below places in rows x and y [m].
+    pub fn add_motions(
+        &self,
+        time: f64,
+        places: &[[f64; MOST_LANES]; 3],
+        levels: &[Level<f64>],
+        to: &mut [[f64; MOST_LANES]; 6],
+    ) {
+        let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        self.plan.processor.dispatch(Motions { plan: &self.plan, memory: &mut memory, time, places, levels, to });
     }
 }
 
@@ -441,6 +455,25 @@ impl Memory {
         series[..TERMS].iter().rev().fold(0.0, |sum: f64, term| sum.mul_add(off, *term))
     }
 
+    /// u, w, ∂u/∂t and ∂w/∂t at a level.
+    #[inline(always)]
+    fn motion_at<V: Simd>(&mut self, cpu: V, plan: &Plan, along: f64, level: &Level<f64>, time: f64) -> [f64; 4] {
+        let mut motion = self.motion(cpu, plan, along, level.z, time);
+        if level.above > 0.0 {
+            // The slope at still water: Σ m c_m ζ^(m-1), ζ = z + ix from the middle of the cell.
+            let up = level.z - plan.layers[1].middle;
+            let (series, off) = self.series(cpu, plan, 1, along, time);
+            let mut slope = [0.0; 4];
+            for (m, terms) in series.chunks_exact(4).enumerate().skip(1).rev() {
+                let [u, w, du, dw] = slope;
+                let turned = [u * up - w * off, w * up + u * off, du * up - dw * off, dw * up + du * off];
+                slope = std::array::from_fn(|c| (m as f64).mul_add(terms[c], turned[c]));
+            }
+            motion.iter_mut().zip(slope).for_each(|(of, slope)| *of += level.above * slope);
+        }
+        motion.map(|of| level.share * of)
+    }
+
     /// u, w, ∂u/∂t and ∂w/∂t at z′ [m].
     #[inline(always)]
     fn motion<V: Simd>(&mut self, cpu: V, plan: &Plan, along: f64, z: f64, time: f64) -> [f64; 4] {
@@ -500,7 +533,7 @@ impl WithSimd for Sums<'_> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> Self::Output {
         let Sums { plan, memory, count, time, easing, places: [x, y, z] } = self;
-        let (deep, shallowest) = (plan.water.depth, plan.water.shallowest);
+        let (deep, shallowest) = (plan.water.depth, SHALLOWEST * plan.water.depth);
         let mut rows = [[0.0; MOST_LANES]; 6];
         for lane in 0..count {
             // Lanes that are left over repeat a place.
@@ -509,13 +542,43 @@ impl WithSimd for Sums<'_> {
                 continue;
             }
             let along = plan.along(x[lane], y[lane]);
-            let depth = (deep + easing * memory.elevation(cpu, plan, along, time)).max(shallowest);
-            let level = ((z[lane] + deep) * deep / depth - deep).min(0.0).max(-deep);
-            let [u, w, du, dw] = memory.motion(cpu, plan, along, level, time);
+            let elevation = easing * memory.elevation(cpu, plan, along, time);
+            let [u, w, du, dw] = if plan.water.stretching == Stretching::Wheeler {
+                let depth = (deep + elevation).max(shallowest);
+                let level = ((z[lane] + deep) * deep / depth - deep).min(0.0).max(-deep);
+                memory.motion(cpu, plan, along, level, time)
+            } else {
+                let level = plan.water.stretching.level((), z[lane], elevation, deep);
+                memory.motion_at(cpu, plan, along, &level, time)
+            };
             let all = [u * plan.cos, u * plan.sin, w, du * plan.cos, du * plan.sin, dw];
             rows.iter_mut().zip(all).for_each(|(row, number)| row[lane] = number);
         }
         rows
+    }
+}
+
+/// `Near::add_motions` in the instructions of the processor.
+struct Motions<'a> {
+    plan: &'a Plan,
+    memory: &'a mut Memory,
+    time: f64,
+    places: &'a [[f64; MOST_LANES]; 3],
+    levels: &'a [Level<f64>],
+    to: &'a mut [[f64; MOST_LANES]; 6],
+}
+
+impl WithSimd for Motions<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        let Motions { plan, memory, time, places: [x, y, _], levels, to } = self;
+        for (lane, level) in levels.iter().enumerate() {
+            let [u, w, du, dw] = memory.motion_at(cpu, plan, plan.along(x[lane], y[lane]), level, time);
+            let all = [u * plan.cos, u * plan.sin, w, du * plan.cos, du * plan.sin, dw];
+            to.iter_mut().zip(all).for_each(|(row, number)| row[lane] += number);
+        }
     }
 }
 

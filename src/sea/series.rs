@@ -28,7 +28,7 @@ fn series<F: Real>(cpu: F::Cpu, square: F, last: u32) -> F {
     sum
 }
 
-/// e^x for x ≤ 0, by its series at x/32; e^-20 for all smaller x. Relative error below 1e-10.
+/// e^x for x ≤ 4, by its series at x/32; e^-20 for all x below -20. Relative error below 1e-10.
 #[inline(always)]
 pub fn decay<F: Real>(cpu: F::Cpu, x: F) -> F {
     let x = x.max(F::splat(cpu, -DECAYED)) * (1.0 / 32.0);
@@ -55,7 +55,7 @@ mod tests {
             let (cos, sin) = cos_sin::<f64>((), turns);
             assert!((cos - (TAU * turns).cos()).abs() < 3e-11 && (sin - (TAU * turns).sin()).abs() < 3e-11, "{turns}");
         }
-        for n in 0..2000 {
+        for n in -400..2000 {
             let x = -0.01 * f64::from(n);
             assert!((decay::<f64>((), x) / x.exp() - 1.0).abs() < 1e-10, "{x}");
         }

@@ -14,6 +14,7 @@
 //! is left out, not put elsewhere: the sea is then lower than H_s.
 
 use crate::scene::types::{OchiHubblePart, variance};
+use crate::sea::random::SplitMix;
 use crate::sea::wave::Wave;
 use std::f64::consts::TAU;
 
@@ -205,20 +206,6 @@ impl Cells {
             Wave { amplitude, omega: TAU * x / period, direction, phase: TAU * random.next() }
         };
         (0..count).map(wave).collect()
-    }
-}
-
-/// The generator SplitMix64 (Steele, Lea & Flood 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    /// Uniform in [0, 1).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 }
 

@@ -1,9 +1,9 @@
-//! Waves: a sum of components by linear theory in finite depth, stretched to the surface (Wheeler 1970).
+//! Waves: a sum of components by linear theory in finite depth, stretched to the surface (`stretching`).
 //!
 //! ```text
 //! η = S Σ a cos θ,   θ = k (x cos b + y sin b) - ω t + φ,   ω² = g k tanh kd
 //! v = S Σ a ω [C cos θ cos b, C cos θ sin b, D sin θ],   C = cosh k(z′+d) / sinh kd,   D = sinh k(z′+d) / sinh kd
-//! z′ + d = (z + d) d / (d + η)
+//! z′ + d = (z + d) d / (d + η)                                                                  (Wheeler 1970; others in `stretching`)
 //! ```
 //!
 //! η elevation [m], v velocity [m/s], d depth [m], S = ξ²(3 - 2ξ), ξ = (t - start)/ramp: the amplitude is eased in. The acceleration is
@@ -13,22 +13,26 @@
 //! A component is left out where it has decayed to less than 1e-4 of its motion at the surface, counted from a trough as deep as the
 //! significant wave height; what lies deeper than the longest component reaches is not looked at. Sine, cosine and exponential are polynomials, good to 3e-11,
 //! because they then run on several numbers at once: on several places for the element loop, on several components for a single place.
-//! Where there are many components of one direction, `near` takes their sums by cells of space and time.
+//! Where there are many components of one direction, `near` takes their sums by cells of space and time, each direction for itself.
 
 use crate::algebra::lanes::Lanes;
 use crate::algebra::real::Across;
 use crate::algebra::real::{MOST_LANES, Real, padded};
 use crate::algebra::shape::Shape;
+use crate::algebra::stokes::{ORDER, Stokes};
 use crate::algebra::triple::Triple;
-use crate::scene::types::Environment;
+use crate::scene::types::{Environment, Stretching};
 use crate::sea::clock::Clock;
 use crate::sea::drawing::{self, Drawn};
 use crate::sea::near::{Member, Near, Water};
 use crate::sea::series::{DECAYED, cos_sin, decay};
+use crate::sea::stream::Stream;
+use crate::sea::stretching::Level;
 use crate::sea::wave::{Wave, wave_number};
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Motion of the water.
 #[derive(Debug, Clone, Copy)]
@@ -42,15 +46,24 @@ pub struct Flow<F: Real> {
 /// A sea: its components in rows, longest wave first, padded.
 #[derive(Debug, Clone)]
 pub struct Waves {
+    waves: Vec<Wave>,
+    /// Components that are summed one by one.
     count: usize,
     rows: [Vec<f64>; ROWS],
+    /// Components that are summed by cells, one direction each.
+    near: Vec<Near>,
+    /// The current that they run on, where it changes in time.
+    stream: Option<Arc<Stream>>,
+    stretching: Stretching,
+    /// The motion holds up to the crest as it stands, without stretching.
+    whole: bool,
+    mean: (f64, f64),
     depth: f64,
     gravity: f64,
     ramp: f64,
     crest: f64,
     height: f64,
     longest: f64,
-    near: Option<Near>,
     processor: Arch,
 }
 
@@ -84,79 +97,137 @@ const ROWS: usize = Row::Echo as usize + 1;
 
 /// Components are left out where less than this share of their motion at the surface is left.
 const FAINT: f64 = 1.0e-4;
+/// No more directions than this are tried for cells.
+const MOST_DIRECTIONS: usize = 1000;
 /// A random sea's crests are counted on up to this many standard deviations; one higher is rarer than one in 10²¹ waves.
 const RARE: f64 = 10.0;
-/// The water never becomes shallower than this share of its depth.
-const SHALLOWEST: f64 = 0.05;
 
 impl Waves {
-    /// The waves of an environment.
+    /// The waves of an environment, and the current that they run on where it changes in time.
     pub fn of(environment: &Environment) -> Option<Waves> {
-        let Drawn { waves, ramp, random } = drawing::drawn(environment.waves.as_ref()?);
-        if waves.is_empty() {
-            return None;
-        }
-        let mut sea = Waves::new(&waves, environment.gravity, environment.depth, ramp);
-        if random {
-            sea.crest = sea.crest.min(RARE * deviation(&waves));
-        }
-        (sea.crest > 0.0).then_some(sea)
+        let rows = environment.current_over_time.as_ref().and_then(|current| current.rows.as_deref());
+        let Some(stream) = rows.and_then(Stream::new) else { return Waves::of_seas(environment) };
+        let calm = || Waves::new(&[], environment.gravity, environment.depth, 0.0);
+        Some(Waves { stream: Some(Arc::new(stream)), ..Waves::of_seas(environment).unwrap_or_else(calm) })
     }
 
-    /// A sea of components in water of a depth [m], eased in over `ramp` [s].
+    fn of_seas(environment: &Environment) -> Option<Waves> {
+        let seas = environment.waves.as_ref()?;
+        let drawn: Vec<Drawn> =
+            drawing::seas(environment).into_iter().filter(|sea| !sea.waves.is_empty() || sea.steady.is_some()).collect();
+        let ramp = drawn.iter().map(|sea| sea.ramp).fold(0.0, f64::max);
+        if let Some((stokes, angles)) = drawn.iter().find_map(|sea| sea.steady.as_ref()) {
+            return Some(Waves::steady(stokes, *angles, environment.gravity, environment.depth, ramp));
+        }
+        let crest = drawn.iter().map(|sea| {
+            let all = sea.waves.iter().map(|wave| wave.amplitude).sum::<f64>();
+            if sea.random { all.min(RARE * deviation(&sea.waves)) } else { all }
+        });
+        let crest = crest.sum();
+        let waves: Vec<Wave> = drawn.into_iter().flat_map(|sea| sea.waves).collect();
+        if !(crest > 0.0) {
+            return None;
+        }
+        let mut sea = Waves::new(&waves, environment.gravity, environment.depth, ramp).stretched(seas.stretching());
+        sea.crest = crest;
+        Some(sea)
+    }
+
+    /// A sea of components in water of a depth [m], eased in over `ramp` [s], with Wheeler's stretching.
     pub fn new(waves: &[Wave], gravity: f64, depth: f64, ramp: f64) -> Waves {
-        let mut numbered: Vec<(f64, &Wave)> = waves.iter().map(|wave| (wave_number(wave.omega, gravity, depth), wave)).collect();
-        numbered.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let mut rows: [Vec<f64>; ROWS] = std::array::from_fn(|_| vec![0.0; padded(waves.len()) + MOST_LANES]);
-        for (n, (k, wave)) in numbered.iter().enumerate() {
-            rows.iter_mut().zip(wave.numbers(*k, depth)).for_each(|(row, number)| row[n] = number);
+        Waves::summed(waves.to_vec(), gravity, depth, ramp, Stretching::Wheeler, true)
+    }
+
+    /// A steady wave of the fifth order, of a direction and a phase [rad]: its harmonics are bound, and hold up to the crest as they stand.
+    pub fn steady(wave: &Stokes, [direction, phase]: [f64; 2], gravity: f64, depth: f64, ramp: f64) -> Waves {
+        let mut sea = Waves::summed(Vec::new(), gravity, depth, ramp, Stretching::Wheeler, false);
+        sea.rows = std::array::from_fn(|_| vec![0.0; padded(ORDER) + MOST_LANES]);
+        for n in 0..ORDER {
+            let harmonic = (n + 1) as f64;
+            let of = Wave { amplitude: wave.elevations[n], omega: harmonic * wave.omega, direction, phase: harmonic * phase };
+            let numbers = of.moving_at(harmonic * wave.number, wave.speeds[n], depth);
+            sea.rows.iter_mut().zip(numbers).for_each(|(row, number)| row[n] = number);
         }
-        let crest = waves.iter().map(|wave| wave.amplitude).sum::<f64>();
-        let height = crest.min(4.0 * deviation(waves));
-        let longest = numbered.first().map_or(f64::INFINITY, |(k, _)| *k);
-        let mut sea =
-            Waves { count: waves.len(), rows, depth, gravity, ramp, crest, height, longest, near: None, processor: Arch::new() };
-        let direction = waves.first().map_or(0.0, |wave| wave.direction);
-        if waves.iter().all(|wave| wave.direction == direction) {
-            sea.near = Near::new(&sea.members(), Water { gravity, depth, shallowest: SHALLOWEST * depth, height, direction });
-        }
+        sea.crest = wave.elevations.iter().map(|elevation| elevation.abs()).sum();
+        (sea.count, sea.whole, sea.height, sea.longest) = (ORDER, true, 2.0 * sea.crest, wave.number);
+        sea.mean = (wave.omega, wave.number);
         sea
+    }
+
+    /// The same sea, carried to the surface in another way.
+    pub fn stretched(self, stretching: Stretching) -> Waves {
+        if stretching == self.stretching {
+            return self;
+        }
+        let Waves { crest, gravity, depth, ramp, stream, .. } = self;
+        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, true) }
     }
 
     /// The same sea with its components summed one by one everywhere: what sums by cells are judged by.
     pub fn one_by_one(self) -> Waves {
-        Waves { near: None, ..self }
+        let Waves { crest, gravity, depth, ramp, stretching, stream, .. } = self;
+        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, false) }
     }
 
-    /// Whether the components are summed by cells rather than one by one.
+    /// A sea whose directions are summed by cells, each where it has enough components and cells are allowed.
+    fn summed(waves: Vec<Wave>, gravity: f64, depth: f64, ramp: f64, stretching: Stretching, cells: bool) -> Waves {
+        let mut numbered: Vec<(f64, &Wave)> = waves.iter().map(|wave| (wave_number(wave.omega, gravity, depth), wave)).collect();
+        numbered.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let crest = waves.iter().map(|wave| wave.amplitude).sum::<f64>();
+        let height = crest.min(4.0 * deviation(&waves));
+        let longest = numbered.first().map_or(f64::INFINITY, |(k, _)| *k);
+        let all = rows_of(&numbered, depth);
+        let mean = mean(&all, numbered.len(), gravity, depth);
+        let mut near = Vec::new();
+        if cells {
+            let mut directions: Vec<f64> = Vec::new();
+            numbered.iter().filter(|(_, wave)| wave.amplitude > 0.0).for_each(|(_, wave)| {
+                if !directions.contains(&wave.direction) && directions.len() <= MOST_DIRECTIONS {
+                    directions.push(wave.direction);
+                }
+            });
+            for direction in directions {
+                let own: Vec<(f64, &Wave)> = numbered.iter().filter(|(_, wave)| wave.direction == direction).copied().collect();
+                let members = members(&rows_of(&own, depth), own.len());
+                if let Some(by_cells) = Near::new(&members, Water { gravity, depth, height, direction, stretching }) {
+                    near.push(by_cells);
+                    numbered.retain(|(_, wave)| wave.direction != direction);
+                }
+            }
+        }
+        let (count, rows) = (numbered.len(), rows_of(&numbered, depth));
+        Waves {
+            count,
+            rows,
+            near,
+            stream: None,
+            stretching,
+            whole: false,
+            mean,
+            depth,
+            gravity,
+            ramp,
+            crest,
+            height,
+            longest,
+            waves,
+            processor: Arch::new(),
+        }
+    }
+
+    /// Whether all components are summed by cells rather than one by one.
     pub fn by_cells(&self) -> bool {
-        self.near.is_some()
-    }
-
-    fn members(&self) -> Vec<Member> {
-        let get = |row: Row, n: usize| self.rows[row as usize][n];
-        let member = |n: usize| Member {
-            number: get(Row::Number, n),
-            omega: TAU * get(Row::Frequency, n),
-            phase: TAU * get(Row::Phase, n),
-            amplitude: get(Row::Amplitude, n),
-            speed: get(Row::Speed, n),
-            echoes: get(Row::Echo, n) > 0.0,
-        };
-        (0..self.count).map(member).collect()
+        self.count == 0
     }
 
     /// Number of components.
     pub fn components(&self) -> usize {
-        self.count
+        if self.whole { self.count } else { self.waves.len() }
     }
 
     /// The mean frequency √(m₂/m₀) of the waves by energy [rad/s], and the wave number that goes with it [1/m].
     pub fn mean(&self) -> (f64, f64) {
-        let [frequency, amplitude] = [Row::Frequency, Row::Amplitude].map(|row| &self.rows[row as usize][..self.count]);
-        let moment = |n: i32| frequency.iter().zip(amplitude).map(|(f, a)| a * a * f.powi(n)).sum::<f64>();
-        let omega = TAU * (moment(2) / moment(0)).sqrt();
-        (omega, wave_number(omega, self.gravity, self.depth))
+        self.mean
     }
 
     /// Height above and depth below still water that the surface never passes [m]: all crests together; in a random sea, `RARE` standard
@@ -194,16 +265,53 @@ impl Waves {
         if easing == 0.0 {
             return 0.0;
         }
-        let sum = match &self.near {
-            Some(near) => near.elevation(clock.now, x, y),
-            None => self.processor.dispatch(Elevation { waves: self, time: clock.now, x, y }),
-        };
-        sum * easing
+        self.surface(clock.now, x, y) * easing
+    }
+
+    /// η at a place before it is eased in [m].
+    fn surface(&self, time: f64, x: f64, y: f64) -> f64 {
+        let one_by_one = || self.processor.dispatch(Elevation { waves: self, time, x, y });
+        match &self.near[..] {
+            [] => one_by_one(),
+            [near] if self.count == 0 => near.elevation(time, x, y),
+            several => {
+                let by_cells = several.iter().map(|near| near.elevation(time, x, y)).sum::<f64>();
+                if self.count == 0 { by_cells } else { by_cells + one_by_one() }
+            }
+        }
     }
 
     /// The motion of the water at places, or none where it is at rest. One place alone is better asked for with `f64`.
     #[inline(always)]
     pub fn flow<F: Real>(&self, cpu: F::Cpu, clock: &Clock, place: &Triple<F>) -> Option<Flow<F>> {
+        let waves = self.flow_of_waves(cpu, clock, place);
+        if self.stream.is_none() {
+            return waves;
+        }
+        let [vx, vy, vz, ax, ay, az] = &self.streams_at(F::LANES, clock.now, place.z.lanes());
+        // At rest the current is that of the start, as if it had always been.
+        let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
+        let (velocity, acceleration) = (Triple::load(cpu, [vx, vy, vz], 0), Triple::load(cpu, [ax, ay, az], 0).scale(moving));
+        Some(match waves {
+            Some(flow) => Flow { velocity: velocity + flow.velocity, acceleration: acceleration + flow.acceleration },
+            None => Flow { velocity, acceleration },
+        })
+    }
+
+    /// The current that changes in time at `count` heights.
+    #[inline(never)]
+    fn streams_at(&self, count: usize, time: f64, heights: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 6] {
+        let mut rows = [[0.0; MOST_LANES]; 6];
+        for (lane, z) in heights.into_iter().enumerate().take(count) {
+            let Some(stream) = &self.stream else { break };
+            let (v, a): (Triple<f64>, Triple<f64>) = stream.flow((), time, z);
+            rows.iter_mut().zip([v.x, v.y, v.z, a.x, a.y, a.z]).for_each(|(row, number)| row[lane] = number);
+        }
+        rows
+    }
+
+    #[inline(always)]
+    fn flow_of_waves<F: Real>(&self, cpu: F::Cpu, clock: &Clock, place: &Triple<F>) -> Option<Flow<F>> {
         let (easing, rise) = self.easing(clock);
         if easing == 0.0 || !(place.z + -self.floor()).any_positive() {
             return None;
@@ -218,40 +326,81 @@ impl Waves {
     /// elements.
     #[inline(never)]
     fn sums_at(&self, count: usize, time: f64, easing: f64, places: [[f64; MOST_LANES]; 3]) -> [[f64; MOST_LANES]; 6] {
-        match &self.near {
-            Some(near) => near.sums(count, time, easing, &places),
-            None => self.processor.dispatch(Sums { waves: self, count, time, easing, places }),
+        match &self.near[..] {
+            [] => self.processor.dispatch(Sums { waves: self, count, time, easing, places, elevations: None }),
+            [near] if self.count == 0 => near.sums(count, time, easing, &places),
+            several => self.sums_of_directions(several, count, time, easing, &places),
         }
     }
 
-    /// Sums of the velocities and accelerations of all components, before they are eased in. `PLACES`: the lanes hold several places,
-    /// else several components.
+    /// The same where there are directions that are summed by cells, and others: they share the surface that all of them make.
+    fn sums_of_directions(
+        &self,
+        directions: &[Near],
+        count: usize,
+        time: f64,
+        easing: f64,
+        places: &[[f64; MOST_LANES]; 3],
+    ) -> [[f64; MOST_LANES]; 6] {
+        let mut elevations = [0.0; MOST_LANES];
+        for lane in 0..count {
+            let [x, y, _] = places.map(|row| row[lane]);
+            elevations[lane] = easing * self.surface(time, x, y);
+        }
+        let mut sums = [[0.0; MOST_LANES]; 6];
+        if self.count > 0 {
+            let elevations = Some(elevations);
+            sums = self.processor.dispatch(Sums { waves: self, count, time, easing, places: *places, elevations });
+        }
+        let levels: [Level<f64>; MOST_LANES] =
+            std::array::from_fn(|lane| self.stretching.level((), places[2][lane], elevations[lane], self.depth));
+        for near in directions {
+            near.add_motions(time, places, &levels[..count], &mut sums);
+        }
+        sums
+    }
+
+    /// Sums of the velocities and accelerations of the components that are summed one by one, before they are eased in. `PLACES`: the lanes hold
+    /// several places, else several components. `elevation`: that of all components, where it is known.
     #[inline(always)]
-    fn sums<F: Real, const PLACES: bool>(&self, cpu: F::Cpu, time: f64, easing: f64, place: &Triple<F>) -> ([F; 3], [F; 3]) {
+    fn sums<F: Real, const PLACES: bool>(
+        &self,
+        cpu: F::Cpu,
+        time: f64,
+        easing: f64,
+        place: &Triple<F>,
+        elevation: Option<F>,
+    ) -> ([F; 3], [F; 3]) {
         let zero = F::splat(cpu, 0.0);
-        let elevation = self.elevations::<F, PLACES>(cpu, time, place) * easing;
-        let depth = (elevation + self.depth).max(F::splat(cpu, SHALLOWEST * self.depth));
-        // z′, between bed and surface.
-        let z =
-            ((place.z + self.depth) * self.depth * depth.reciprocal() + -self.depth).min(zero).max(F::splat(cpu, -self.depth));
+        let elevation = elevation.unwrap_or_else(|| self.elevations::<F, PLACES>(cpu, time, place) * easing);
+        let level = if self.whole {
+            let z = place.z.min(elevation).max(F::splat(cpu, -self.depth));
+            Level { z, above: zero, share: zero }
+        } else {
+            self.stretching.level(cpu, place.z, elevation, self.depth)
+        };
+        let Level { z, above, share } = level;
+        let carried = above.any_positive();
         let [mut vx, mut vy, mut vz, mut ax, mut ay, mut az] = [zero; 6];
         for n in (0..self.reaching(place.z.highest())).step_by(if PLACES { 1 } else { F::LANES }) {
             let (cos, sin) = self.angle::<F, PLACES>(cpu, time, place, n);
             let down = decay(cpu, self.get::<F, PLACES>(cpu, Row::Number, n) * z);
             let echo = self.get::<F, PLACES>(cpu, Row::Echo, n);
             let back = if echo.any_positive() { echo * down.reciprocal() } else { zero };
-            let (level, upright) = (down + back, down - back);
+            let (mut level, mut upright) = (down + back, down - back);
+            if carried {
+                let above = self.get::<F, PLACES>(cpu, Row::Number, n) * above;
+                (level, upright) = (upright.mul_add(above, level), level.mul_add(above, upright));
+            }
             let (speed, rate) = (self.get::<F, PLACES>(cpu, Row::Speed, n), self.get::<F, PLACES>(cpu, Row::Rate, n));
             let (v, a) = (level * cos * speed, level * sin * rate);
             let (cos_b, sin_b) = (self.get::<F, PLACES>(cpu, Row::Cos, n), self.get::<F, PLACES>(cpu, Row::Sin, n));
             (vx, vy, vz) = (v.mul_add(cos_b, vx), v.mul_add(sin_b, vy), (upright * sin).mul_add(speed, vz));
             (ax, ay, az) = (a.mul_add(cos_b, ax), a.mul_add(sin_b, ay), (upright * cos).mul_add(-rate, az));
         }
-        if PLACES {
-            return ([vx, vy, vz], [ax, ay, az]);
-        }
-        let whole = |sum: F| F::splat(cpu, sum.total());
-        ([vx, vy, vz].map(whole), [ax, ay, az].map(whole))
+        let whole = |sum: F| if PLACES { sum } else { F::splat(cpu, sum.total()) };
+        let (v, a) = ([vx, vy, vz].map(whole), [ax, ay, az].map(whole));
+        if self.stretching == Stretching::None { (v.map(|v| v * share), a.map(|a| a * share)) } else { (v, a) }
     }
 
     /// Σ a cos θ.
@@ -289,6 +438,36 @@ impl Waves {
     }
 }
 
+/// Components with their wave numbers in rows, padded.
+fn rows_of(numbered: &[(f64, &Wave)], depth: f64) -> [Vec<f64>; ROWS] {
+    let mut rows: [Vec<f64>; ROWS] = std::array::from_fn(|_| vec![0.0; padded(numbered.len()) + MOST_LANES]);
+    for (n, (k, wave)) in numbered.iter().enumerate() {
+        rows.iter_mut().zip(wave.numbers(*k, depth)).for_each(|(row, number)| row[n] = number);
+    }
+    rows
+}
+
+fn members(rows: &[Vec<f64>; ROWS], count: usize) -> Vec<Member> {
+    let get = |row: Row, n: usize| rows[row as usize][n];
+    let member = |n: usize| Member {
+        number: get(Row::Number, n),
+        omega: TAU * get(Row::Frequency, n),
+        phase: TAU * get(Row::Phase, n),
+        amplitude: get(Row::Amplitude, n),
+        speed: get(Row::Speed, n),
+        echoes: get(Row::Echo, n) > 0.0,
+    };
+    (0..count).map(member).collect()
+}
+
+/// `Waves::mean` of components in rows.
+fn mean(rows: &[Vec<f64>; ROWS], count: usize, gravity: f64, depth: f64) -> (f64, f64) {
+    let [frequency, amplitude] = [Row::Frequency, Row::Amplitude].map(|row| &rows[row as usize][..count]);
+    let moment = |n: i32| frequency.iter().zip(amplitude).map(|(f, a)| a * a * f.powi(n)).sum::<f64>();
+    let omega = TAU * (moment(2) / moment(0)).sqrt();
+    (omega, wave_number(omega, gravity, depth))
+}
+
 /// Standard deviation of the elevation [m].
 fn deviation(waves: &[Wave]) -> f64 {
     waves.iter().map(|wave| 0.5 * wave.amplitude * wave.amplitude).sum::<f64>().sqrt()
@@ -297,9 +476,14 @@ fn deviation(waves: &[Wave]) -> f64 {
 impl Wave {
     /// The row entries of a wave of number k [1/m].
     fn numbers(&self, k: f64, depth: f64) -> [f64; ROWS] {
+        self.moving_at(k, self.amplitude * self.omega, depth)
+    }
+
+    /// The same of a wave whose upright speed at still water is given [m/s].
+    fn moving_at(&self, k: f64, speed: f64, depth: f64) -> [f64; ROWS] {
         let (sin, cos) = self.direction.sin_cos();
         let echo = if k * depth < DECAYED { (-2.0 * k * depth).exp() } else { 0.0 };
-        let speed = self.amplitude * self.omega / if echo > 0.0 { -(-2.0 * k * depth).exp_m1() } else { 1.0 };
+        let speed = speed / if echo > 0.0 { -(-2.0 * k * depth).exp_m1() } else { 1.0 };
         let turn = 1.0 / TAU;
         [
             k * cos * turn,
@@ -324,6 +508,8 @@ struct Sums<'a> {
     time: f64,
     easing: f64,
     places: [[f64; MOST_LANES]; 3],
+    /// η of all components, eased in, where it is known already.
+    elevations: Option<[f64; MOST_LANES]>,
 }
 
 impl WithSimd for Sums<'_> {
@@ -331,16 +517,18 @@ impl WithSimd for Sums<'_> {
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> Self::Output {
-        let Sums { waves, count, time, easing, places: [x, y, z] } = &self;
+        let Sums { waves, count, time, easing, places: [x, y, z], elevations } = &self;
         let mut rows = [[0.0; MOST_LANES]; 6];
         let mut at = 0;
         while at < *count {
             let (v, a) = if *count > 1 {
                 let place = Triple::load(cpu, [x, y, z], at);
-                waves.sums::<Lanes<V>, true>(cpu, *time, *easing, &place)
+                let elevation = elevations.as_ref().map(|row| Lanes::<V>::load(cpu, row, at));
+                waves.sums::<Lanes<V>, true>(cpu, *time, *easing, &place, elevation)
             } else {
                 let place = Triple::splat(cpu, &Vector3::new(x[0], y[0], z[0]));
-                waves.sums::<Lanes<V>, false>(cpu, *time, *easing, &place)
+                let elevation = elevations.map(|row| Lanes::<V>::splat(cpu, row[0]));
+                waves.sums::<Lanes<V>, false>(cpu, *time, *easing, &place, elevation)
             };
             for (row, sum) in rows.iter_mut().zip([v[0], v[1], v[2], a[0], a[1], a[2]]) {
                 sum.store(row, at);
@@ -459,7 +647,7 @@ mod tests {
                     assert!((found_a - a[c]).abs() < 1e-8, "a{c} at {at:?}, t = {time}: {found_a} {}", a[c]);
                 }
                 // Places side by side.
-                let (v, a) = sea.sums::<f64, true>((), time, 1.0, &at);
+                let (v, a) = sea.sums::<f64, true>((), time, 1.0, &at, None);
                 let (_, exact_v, exact_a) = exact(&waves, depth, time, &at);
                 for c in 0..3 {
                     assert!((v[c] - exact_v[c]).abs() < 1e-8 && (a[c] - exact_a[c]).abs() < 1e-8);

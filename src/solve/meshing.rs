@@ -152,7 +152,7 @@ fn rules(scene: &Scene, line: &Line, finer: f64) -> Rules {
     let (anchor, falls) = (Vector3::from(line.anchor), mean(&|p| fall_speed(p)));
     let slackens = places.iter().any(|fairlead| (fairlead - anchor).norm() < whole.length);
     let drop = places.iter().map(|fairlead| (fairlead.z - line.anchor[2]).abs()).fold(0.0, f64::max);
-    let sea = Waves::of(&scene.environment).map(|waves| waves.mean());
+    let sea = Waves::of(&scene.environment).filter(|waves| waves.components() > 0).map(|waves| waves.mean());
     // A slack line with bending stiffness hangs in a bight of about this length, (EI/w)^⅓.
     let (ei, weight) = (mean(&|p| p.ei), mean(&|p| p.weight.abs().max(0.01 * p.weight_in_air)));
     let bend = if ei > 0.0 { (BEND * (ei / weight).cbrt()).max(whole.length / 4000.0) } else { f64::INFINITY };

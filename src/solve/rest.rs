@@ -44,6 +44,8 @@ pub fn rests(line: &dyn Line, newton: &mut Newton, state: &State, allowed: f64) 
 pub fn decision(scene: &Scene, supports: &Supports) -> Decision {
     let (on, reason) = if scene.solver.uncontrolled_step().is_some() {
         (true, "solver.fixed_step asks for every step")
+    } else if scene.environment.current_over_time.is_some() {
+        (true, "a current that changes keeps the line in motion")
     } else if scene.environment.waves.is_some() {
         (true, "waves keep the line in motion")
     } else if !supports.holds.is_empty() {

@@ -149,7 +149,7 @@ def test_a_sweep_that_is_cut_goes_on_where_it_was(client, tmp_path):
     first = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True)
     while not store.exists() or not (xarray.open_zarr(store).state == 1).any():
         assert first.poll() is None, "it ended before it was cut"
-        time.sleep(0.05)
+        time.sleep(0.2)
     first.kill()
     first.wait()
     there = int((xarray.open_zarr(store).state == 1).sum())

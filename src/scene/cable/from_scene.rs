@@ -39,9 +39,9 @@ pub fn deck(scene: &Scene, state: &LineState, file: &str) -> Result<Conversion, 
     let (drag, added_mass, damping) =
         types.first().map_or((0.0, 0.0, 0.0), |(_, of)| (of.drag.normal, of.added_mass.normal, of.damping));
     let constraints = constraints(scene, line, state, file)?;
-    let (wave_amplitude, wave_frequency, wave_direction) = match scene.environment.waves {
+    let (wave_amplitude, wave_frequency, wave_direction) = match only_wave(scene) {
         Some(Waves::Regular { amplitude, period, direction_deg, .. }) => {
-            (amplitude, TAU / period, 0.0 - direction_deg.to_radians())
+            (*amplitude, TAU / period, 0.0 - direction_deg.to_radians())
         }
         _ => (0.0, 0.0, 0.0),
     };
@@ -114,6 +114,11 @@ fn cannot(file: &str, item: &str, reason: String) -> Error {
     Error::Deck { file: file.into(), line: 1, column: 1, item: item.into(), problem: problem.into() }
 }
 
+/// The only sea of a scene, where there is one.
+fn only_wave(scene: &Scene) -> Option<&Waves> {
+    scene.environment.waves.as_ref()?.alone()
+}
+
 /// Whether all that a scene says of its line lies in the plane y = 0.
 fn is_planar(scene: &Scene, line: &Line, state: &LineState) -> bool {
     let flat = |v: &Triple| v[1] == 0.0;
@@ -122,10 +127,9 @@ fn is_planar(scene: &Scene, line: &Line, state: &LineState) -> bool {
         Motion::Sinusoidal { sine, cosine, .. } => flat(sine) && flat(cosine),
         Motion::File { .. } => false,
     };
-    let waves = match scene.environment.waves {
-        None => true,
-        Some(Waves::Regular { direction_deg, .. }) => direction_deg == 0.0,
-        Some(_) => false,
+    let waves = match only_wave(scene) {
+        Some(Waves::Regular { direction_deg, .. }) => *direction_deg == 0.0,
+        _ => scene.environment.waves.is_none(),
     };
     let environment = &scene.environment;
     let nodes = state.nodes.iter().all(|node| {
@@ -321,15 +325,17 @@ impl Losses {
         self.add(environment.surface == Surface::Pierced, || {
             String::from("environment.surface: a line above the water keeps its buoyancy and drag there (\"none\")")
         });
-        match &environment.waves {
+        self.add(environment.current_over_time.is_some(), || {
+            String::from("environment.current_over_time: a file holds a current that does not change; there is none in it")
+        });
+        match only_wave(scene) {
             Some(Waves::Regular { phase_deg, ramp, .. }) => {
                 self.add(*phase_deg != 0.0, || format!("environment.waves.phase_deg: {phase_deg} becomes 0"));
                 self.add(*ramp != Some(0.0), || String::from("environment.waves.ramp: the wave is there from the start"));
             }
-            Some(_) => {
-                self.0.push(String::from("environment.waves: only one regular wave can be held; there are none in the file"))
-            }
-            None => {}
+            _ => self.add(environment.waves.is_some(), || {
+                String::from("environment.waves: only one regular wave can be held; there are none in the file")
+            }),
         }
     }
 

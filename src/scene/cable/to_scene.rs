@@ -9,7 +9,7 @@ use crate::scene::cable::{Deck, ElementType, Job, MotionKind, NodeConstraint, fo
 use crate::scene::state::{LineState, NodeState};
 use crate::scene::types::{
     Constraint, CurrentPoint, Environment, InnerFluid, Line, LineType, Motion, NormalTangential, ReferenceMotion, Run, Scene,
-    Seabed, Section, Solver, Stretch, Surface, Triple, Waves,
+    Seabed, Seas, Section, Solver, Stretch, Surface, Triple, Waves,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -190,6 +190,7 @@ fn environment(deck: &Deck, stiffness: Option<f64>) -> Environment {
         direction_deg: 0.0 - deck.wave_direction.to_degrees(),
         phase_deg: 0.0,
         ramp: Some(0.0),
+        stretching: None,
     });
     Environment {
         gravity: deck.gravity,
@@ -197,7 +198,8 @@ fn environment(deck: &Deck, stiffness: Option<f64>) -> Environment {
         depth: -deck.bottom,
         seabed: Seabed { stiffness, ..Seabed::default() },
         current,
-        waves,
+        current_over_time: None,
+        waves: waves.map(Seas::One),
         surface: Surface::None,
     }
 }

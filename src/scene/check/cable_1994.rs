@@ -35,6 +35,9 @@ fn sea_and_bed(scene: &Scene, file: &str) -> Result<(), Error> {
     if waves.is_some() {
         return refuse(file, "environment.waves", "a sea with waves", ELSEWHERE);
     }
+    if scene.environment.current_over_time.is_some() {
+        return refuse(file, "environment.current_over_time", "a current that changes", ELSEWHERE);
+    }
     for (key, value) in [("friction", seabed.friction), ("damping", seabed.damping)] {
         if value != 0.0 {
             return refuse(file, format!("environment.seabed.{key}"), number(value), ELSEWHERE);

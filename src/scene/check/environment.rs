@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::scene::check::finding::{finite, not_negative, number, positive, refuse};
+use crate::scene::current_file;
 use crate::scene::types::Scene;
 
 pub fn gravity(scene: &Scene, file: &str) -> Result<(), Error> {
@@ -57,4 +58,26 @@ pub fn current(scene: &Scene, file: &str) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// A current over time is given once, by rows that make profiles, and not beside a steady one.
+pub fn current_over_time(scene: &Scene, file: &str) -> Result<(), Error> {
+    let place = "environment.current_over_time";
+    let Some(current) = &scene.environment.current_over_time else { return Ok(()) };
+    if !scene.environment.current.is_empty() {
+        let allowed = "`current` is given too; put the steady current into the rows, or leave one of them out";
+        return refuse(file, place, "a current beside a current", allowed);
+    }
+    let rows = match (&current.path, &current.rows) {
+        (Some(_), None) => return Ok(()),
+        (None, Some(rows)) => rows,
+        (None, None) => {
+            return refuse(file, place, "a current without rows", "it must have `path`, a CSV file t,z,u,v,w, or `rows`");
+        }
+        (Some(_), Some(_)) => return refuse(file, place, "a current with two sources", "give `path` or `rows`, not both"),
+    };
+    if rows.is_empty() {
+        return refuse(file, format!("{place}.rows"), "an empty list", "it needs at least one row [t, z, u, v, w]");
+    }
+    current_file::check(rows).or_else(|(row, found, allowed)| refuse(file, format!("{place}.rows[{row}]"), found, allowed))
 }

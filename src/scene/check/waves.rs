@@ -1,16 +1,66 @@
 //! Rules on waves, and a warning of those that would break.
 
+use crate::algebra::stokes::{self, Stokes};
 use crate::error::Error;
 use crate::scene::check::finding::{finite, not_negative, number, positive, refuse};
-use crate::scene::types::{OchiHubblePart, Scene, Waves};
+use crate::scene::elevation_file::{Fault, Record};
+use crate::scene::types::{OchiHubblePart, Scene, Spreading, Stretching, Waves};
 
 /// Most components of a sea.
 const MOST_COMPONENTS: usize = 5000;
+/// Most components of a record of an elevation.
+const MOST_OF_A_RECORD: usize = 50_000;
 
-/// Numbers of the right sign, and a surface that stays above the bed.
+/// Numbers of the right sign in every sea, one stretching for all, and a surface that stays above the bed.
 pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
-    let Some(waves) = &scene.environment.waves else { return Ok(()) };
-    let at = |key: &str| format!("environment.waves.{key}");
+    let Some(seas) = &scene.environment.waves else { return Ok(()) };
+    if seas.each().is_empty() {
+        let allowed = "a list holds at least one sea; leave `waves` out for a calm sea";
+        return refuse(file, "environment.waves", "an empty list", allowed);
+    }
+    let (depth, shared) = (scene.environment.depth, seas.stretching());
+    let mut all = 0.0;
+    for (index, waves) in seas.each().iter().enumerate() {
+        let place = seas.place(index);
+        let (key, down) = sea(waves, &place, file)?;
+        if let Waves::Regular5th { height, period, .. } = waves {
+            steep(scene, *height, *period, &place, file)?;
+            if seas.each().len() > 1 {
+                let allowed = "a wave of the fifth order does not add to others; give it alone, or all waves by linear theory";
+                return refuse(file, place, "\"regular-5th\" in a list of seas", allowed);
+            }
+        }
+        if waves.stretching().is_some_and(|own| own != shared) {
+            let allowed = format!(
+                "the seas of a list make one surface and have one stretching, and another of them has \"{}\"",
+                word(shared)
+            );
+            let found = format!("\"{}\"", word(waves.stretching().unwrap_or_default()));
+            return refuse(file, format!("{place}.stretching"), found, allowed);
+        }
+        all += down;
+        if !(all < depth) {
+            let allowed = format!("waves so high would bare the seabed, which is {} m below still water", number(depth));
+            let found = if all > down { "with the seas before it " } else { "" };
+            return refuse(file, format!("{place}.{key}"), format!("{found}{} m", number(all)), allowed);
+        }
+    }
+    Ok(())
+}
+
+/// A stretching as it is written in a scene.
+fn word(stretching: Stretching) -> &'static str {
+    match stretching {
+        Stretching::Wheeler => "wheeler",
+        Stretching::None => "none",
+        Stretching::Vertical => "vertical",
+        Stretching::Extrapolation => "extrapolation",
+    }
+}
+
+/// Numbers of the right sign in the sea at a place; which key says how high it is, and how far the surface may fall [m].
+fn sea(waves: &Waves, place: &str, file: &str) -> Result<(&'static str, f64), Error> {
+    let at = |key: &str| format!("{place}.{key}");
     let one = |place: &str, amplitude: f64, period: f64, direction: f64, phase: f64| {
         not_negative(file, &at(&format!("{place}amplitude")), amplitude, "m")?;
         positive(file, &at(&format!("{place}period")), period, "s")?;
@@ -22,9 +72,16 @@ pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
         _ => refuse(file, at("components"), count.to_string(), format!("a sea has 1 to {MOST_COMPONENTS} components")),
     };
     let (key, down, ramp) = match waves {
-        Waves::Regular { amplitude, period, direction_deg, phase_deg, ramp } => {
+        Waves::Regular { amplitude, period, direction_deg, phase_deg, ramp, .. } => {
             one("", *amplitude, *period, *direction_deg, *phase_deg)?;
             ("amplitude", *amplitude, ramp)
+        }
+        Waves::Regular5th { height, period, direction_deg, phase_deg, ramp } => {
+            positive(file, &at("height"), *height, "m")?;
+            positive(file, &at("period"), *period, "s")?;
+            finite(file, &at("direction_deg"), &[*direction_deg])?;
+            finite(file, &at("phase_deg"), &[*phase_deg])?;
+            ("height", 0.5 * *height, ramp)
         }
         Waves::Jonswap { hs, tp, gamma, components, direction_deg, cut_off, ramp, .. } => {
             not_negative(file, &at("hs"), *hs, "m")?;
@@ -32,14 +89,10 @@ pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
             finite(file, &at("direction_deg"), &[*direction_deg])?;
             count(*components)?;
             if !(1.0..=20.0).contains(gamma) {
-                return refuse(
-                    file,
-                    at("gamma"),
-                    number(*gamma),
-                    "it must lie between 1 and 20; 3.3 is usual, 1 a full-grown sea",
-                );
+                let allowed = "it must lie between 1 and 20; 3.3 is usual, 1 a full-grown sea";
+                refuse(file, at("gamma"), number(*gamma), allowed)?;
             }
-            above_the_peak(file, *cut_off, tp.recip())?;
+            above_the_peak(file, &at("cut_off"), *cut_off, tp.recip())?;
             ("hs", *hs, ramp)
         }
         Waves::PiersonMoskowitz { hs, tp, components, direction_deg, cut_off, ramp, .. } => {
@@ -47,7 +100,7 @@ pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
             positive(file, &at("tp"), *tp, "s")?;
             finite(file, &at("direction_deg"), &[*direction_deg])?;
             count(*components)?;
-            above_the_peak(file, *cut_off, tp.recip())?;
+            above_the_peak(file, &at("cut_off"), *cut_off, tp.recip())?;
             ("hs", *hs, ramp)
         }
         Waves::OchiHubble { parts, components, direction_deg, cut_off, ramp, .. } => {
@@ -56,7 +109,7 @@ pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
             }
             finite(file, &at("direction_deg"), &[*direction_deg])?;
             count(*components)?;
-            above_the_peak(file, *cut_off, parts[0].tp.min(parts[1].tp).recip())?;
+            above_the_peak(file, &at("cut_off"), *cut_off, parts[0].tp.min(parts[1].tp).recip())?;
             ("parts", parts[0].hs.hypot(parts[1].hs), ramp)
         }
         Waves::Table { spectrum, components, direction_deg, cut_off, ramp, .. } => {
@@ -64,10 +117,30 @@ pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
             finite(file, &at("direction_deg"), &[*direction_deg])?;
             count(*components)?;
             let (height, period) = waves.significant().unwrap_or_default();
-            above_the_peak(file, *cut_off, period.recip())?;
+            above_the_peak(file, &at("cut_off"), *cut_off, period.recip())?;
             ("spectrum", height, ramp)
         }
-        Waves::Components { components, ramp } => {
+        Waves::Elevation { path, series, at: [x, y], direction_deg, cut_off, ramp, .. } => {
+            finite(file, &at("at"), &[*x, *y])?;
+            finite(file, &at("direction_deg"), &[*direction_deg])?;
+            if let Some(cut_off) = cut_off {
+                positive(file, &at("cut_off"), *cut_off, "Hz")?;
+            }
+            let down = match (path, series) {
+                (Some(_), None) => 0.0,
+                (None, Some(series)) => elevation(series, *cut_off, &at("series"), &at("cut_off"), file)?,
+                (None, None) => {
+                    let allowed = "it must have `path`, a CSV file of rows t,eta, or `series`, a list of such rows";
+                    return refuse(file, place, "an elevation without a record", allowed).map(|()| ("", 0.0));
+                }
+                (Some(_), Some(_)) => {
+                    let allowed = "give `path` or `series`, not both";
+                    return refuse(file, place, "an elevation with two records", allowed).map(|()| ("", 0.0));
+                }
+            };
+            ("series", down, ramp)
+        }
+        Waves::Components { components, ramp, .. } => {
             count(components.len())?;
             for (index, c) in components.iter().enumerate() {
                 one(&format!("components[{index}]."), c.amplitude, c.period, c.direction_deg, c.phase_deg)?;
@@ -76,20 +149,92 @@ pub fn waves(scene: &Scene, file: &str) -> Result<(), Error> {
         }
     };
     not_negative(file, &at("ramp"), ramp.unwrap_or(0.0), "s; 0 means none")?;
-    let depth = scene.environment.depth;
-    if !(down < depth) {
-        let allowed = format!("waves so high would bare the seabed, which is {} m below still water", number(depth));
-        return refuse(file, at(key), format!("{} m", number(down)), allowed);
+    waves.spreading().map_or(Ok(()), |spreading| spread(file, &at("spreading"), spreading))?;
+    Ok((key, down))
+}
+
+/// Evenly spaced rows that rise in time, a cut-off above their peak, and not more components than can be summed; their height [m].
+fn elevation(series: &[[f64; 2]], cut_off: Option<f64>, place: &str, cut: &str, file: &str) -> Result<f64, Error> {
+    let record = match Record::new(series) {
+        Ok(record) => record,
+        Err(Fault { row, found, allowed }) => {
+            let place = row.map_or(place.to_string(), |row| format!("{place}[{row}]"));
+            return refuse(file, place, found, allowed).map(|()| 0.0);
+        }
+    };
+    above_the_peak(file, cut, cut_off, record.peak)?;
+    let count = record.up_to(record.cut_off(cut_off)).len();
+    if count > MOST_OF_A_RECORD {
+        let allowed = format!(
+            "up to {:.4} Hz it has more than {MOST_OF_A_RECORD}; lower `cut_off` or cut the record",
+            record.cut_off(cut_off)
+        );
+        refuse(file, place, format!("a record of {count} components"), allowed)?;
+    }
+    Ok(4.0 * record.variance(record.cut_off(cut_off)).sqrt())
+}
+
+/// Neither higher than a wave can stand nor longer than the fifth order holds for.
+fn steep(scene: &Scene, height: f64, period: f64, place: &str, file: &str) -> Result<(), Error> {
+    let (gravity, depth) = (scene.environment.gravity, scene.environment.depth);
+    let metres = |value: f64| format!("{} m", number((100.0 * value).round() / 100.0));
+    let Some(wave) = Stokes::new(height, period, gravity, depth) else {
+        let allowed = format!("no wave of the fifth order of {} s is so high in {} of water", number(period), metres(depth));
+        return refuse(file, format!("{place}.height"), metres(height), allowed);
+    };
+    let length = wave.length();
+    let highest = stokes::highest(length, depth);
+    if !(height <= highest) {
+        let allowed =
+            format!("a wave of this period is {} long here and breaks at {} (Fenton 1990)", metres(length), metres(highest));
+        return refuse(file, format!("{place}.height"), metres(height), allowed);
+    }
+    let long = height * length * length / depth.powi(3);
+    if !(long <= stokes::LONGEST) {
+        let allowed = format!(
+            "height × length² / depth³ is {} and the fifth order holds up to {} (Hedges 1995): the wave is too long for the depth",
+            number((10.0 * long).round() / 10.0),
+            stokes::LONGEST
+        );
+        return refuse(file, format!("{place}.period"), format!("{} s, {} long,", number(period), metres(length)), allowed);
+    }
+    Ok(())
+}
+
+/// Said once how much, and within what a spectrum of directions can be.
+fn spread(file: &str, place: &str, spreading: &Spreading) -> Result<(), Error> {
+    let Spreading { s, deviation_deg, directions } = spreading;
+    match (s, deviation_deg) {
+        (None, None) => {
+            let allowed = "it must have `s`, the exponent of cos^2s(θ/2), or `deviation_deg`, the standard deviation";
+            return refuse(file, place, "spreading without a measure", allowed);
+        }
+        (Some(_), Some(_)) => {
+            let allowed = "`s` and `deviation_deg` say the same thing; leave one of them out";
+            return refuse(file, place, "spreading with two measures", allowed);
+        }
+        (Some(s), None) if !(1.0..=1000.0).contains(s) => {
+            let allowed = "it must lie between 1 and 1000; a wind sea has 5 to 15, a swell 25 to 75";
+            return refuse(file, format!("{place}.s"), number(*s), allowed);
+        }
+        (None, Some(deviation)) if !(2.6..=57.0).contains(deviation) => {
+            let allowed = "it must lie between 2.6 and 57 degrees; leave `spreading` out for a sea of one direction";
+            return refuse(file, format!("{place}.deviation_deg"), number(*deviation), allowed);
+        }
+        _ => {}
+    }
+    if !(2..=100).contains(directions) {
+        return refuse(file, format!("{place}.directions"), directions.to_string(), "a sea is spread over 2 to 100 directions");
     }
     Ok(())
 }
 
 /// A frequency [Hz] above which nothing is left, above that of the peak.
-fn above_the_peak(file: &str, cut_off: Option<f64>, peak: f64) -> Result<(), Error> {
+fn above_the_peak(file: &str, place: &str, cut_off: Option<f64>, peak: f64) -> Result<(), Error> {
     match cut_off {
         Some(cut_off) if !(cut_off > peak && cut_off.is_finite()) => refuse(
             file,
-            "environment.waves.cut_off",
+            place,
             format!("{} Hz", number(cut_off)),
             format!(
                 "it must lie above the peak of the spectrum, which is at {:.4} Hz, or most of the sea would be left out",
@@ -161,16 +306,17 @@ pub fn breaking_waves(scene: &Scene) -> Vec<String> {
             )
         })
     };
-    match &scene.environment.waves {
-        Some(Waves::Regular { amplitude, period, .. }) => breaks("environment.waves", *amplitude, *period).into_iter().collect(),
-        Some(Waves::Components { components, .. }) => {
-            let place = |index: usize| format!("environment.waves.components[{index}]");
-            components.iter().enumerate().filter_map(|(index, c)| breaks(&place(index), c.amplitude, c.period)).collect()
+    let Some(seas) = &scene.environment.waves else { return Vec::new() };
+    let of = |(index, sea): (usize, &Waves)| -> Vec<String> {
+        let place = seas.place(index);
+        match sea {
+            Waves::Regular { amplitude, period, .. } => breaks(&place, *amplitude, *period).into_iter().collect(),
+            Waves::Components { components, .. } => {
+                let place = |index: usize| format!("{place}.components[{index}]");
+                components.iter().enumerate().filter_map(|(index, c)| breaks(&place(index), c.amplitude, c.period)).collect()
+            }
+            sea => sea.significant().into_iter().filter_map(|(hs, tp)| breaks(&place, 0.5 * hs, tp)).collect(),
         }
-        Some(sea) => {
-            let given = sea.significant().into_iter();
-            given.filter_map(|(hs, tp)| breaks("environment.waves", 0.5 * hs, tp)).collect()
-        }
-        None => Vec::new(),
-    }
+    };
+    seas.each().iter().enumerate().flat_map(of).collect()
 }

@@ -101,10 +101,14 @@ impl Writer<'_> {
     }
 
     fn environment(&mut self) {
-        let Environment { gravity, water_density, depth, seabed, current, waves, surface } = &self.scene.environment;
+        let Environment { gravity, water_density, depth, seabed, current, current_over_time, waves, surface } =
+            &self.scene.environment;
         let options = &mut self.deck.options;
         (options.gravity, options.water_density, options.depth) = (*gravity, *water_density, Some(Depth::Level(*depth)));
         (options.friction, options.currents) = (seabed.friction, !current.is_empty());
+        self.lose(current_over_time.is_some(), || {
+            String::from("environment.current_over_time: a file holds a current that does not change; there is none in it")
+        });
         self.lose(waves.is_some(), || {
             String::from("environment.waves: MoorDyn takes waves from a calling program or files; there are none")
         });

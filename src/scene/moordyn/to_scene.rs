@@ -136,6 +136,7 @@ impl Making<'_> {
                 slope_deg: bed.slope_deg,
             },
             current: if options.currents { beside::current(directory)? } else { Vec::new() },
+            current_over_time: None,
             waves: None,
             surface: Surface::Pierced,
         })

@@ -1,7 +1,7 @@
 //! The part `environment` of a scene: water, seabed and gravity.
 
 use crate::scene::types::vector::Triple;
-use crate::scene::types::waves::Waves;
+use crate::scene::types::waves::Seas;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,9 +26,12 @@ pub struct Environment {
     /// Current profile: velocity at rising or falling z, piecewise linear, held constant outside the table. Default: none.
     #[serde(default)]
     pub current: Vec<CurrentPoint>,
-    /// Waves. The equilibrium at the start is that of calm water. Default: none.
+    /// A current that changes in time, in place of `current`. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub waves: Option<Waves>,
+    pub current_over_time: Option<CurrentOverTime>,
+    /// Waves: a sea, or a list of seas that meet. The equilibrium at the start is that of calm water. Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waves: Option<Seas>,
     /// What the water surface does to a line. Default `pierced`.
     #[serde(default)]
     pub surface: Surface,
@@ -65,6 +68,20 @@ pub struct CurrentPoint {
     pub z: f64,
     /// Velocity of the water there [m/s].
     pub velocity: Triple,
+}
+
+/// A current that changes in time: a profile at each of several times. In time and in z it is linear between its rows and held constant outside
+/// them, each component by itself, so that it may turn with depth. Either `path` or `rows`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CurrentOverTime {
+    /// CSV file with rows `t,z,u,v,w` in s, m and m/s: time, height, velocity along x, y and z; relative to the scene's file. Rows of one time stand
+    /// together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+    /// The same rows in the scene itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rows: Option<Vec<[f64; 5]>>,
 }
 
 /// What the water surface does to a line.

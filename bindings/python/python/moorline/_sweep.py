@@ -27,7 +27,9 @@ Over = Union[Mapping[str, Sequence[Any]], Sequence[Mapping[str, Any]]]
 _TASK = 1.0
 """What a worker is given at a time is to take so long [s]."""
 _FLUSH = 1.0
-"""How often the store grows [s]."""
+"""How often the store grows at most [s]."""
+_SHARE = 0.02
+"""How much of the time of this program that may take."""
 _CHUNK = 1024
 """Rows of a chunk of the store."""
 _LARGEST = 2000
@@ -166,7 +168,7 @@ class _Sheet:
         self.path = None if store is None else Path(store)
         self.dirty: set[int] = set()
         self.stored: set[str] = set()
-        self.flushed = time.monotonic()
+        self.flushed, self.pause = time.monotonic(), _FLUSH
         if self.path is not None and self.path.exists() and any(self.path.iterdir()):
             self._load(self.path)
 
@@ -189,8 +191,10 @@ class _Sheet:
         self.state[list(rows)], self.seconds[list(rows)] = block.state, block.seconds
         self.warnings[list(rows)] = block.warnings
         self.dirty.update(row // _CHUNK for row in rows)
-        if time.monotonic() - self.flushed > _FLUSH:
+        if time.monotonic() - self.flushed > self.pause:
+            began = time.monotonic()
             self.flush()
+            self.pause = max(_FLUSH, (time.monotonic() - began) / _SHARE)
 
     def dataset(self) -> xarray.Dataset:
         """All rows."""
@@ -280,12 +284,14 @@ class _Client:
     def __enter__(self) -> Any:
         if self.given is not None:
             return self.given
+        import dask
         from distributed import Client, LocalCluster
 
         # Runs share the cores out among themselves; within a run, lines take turns.
         alone = {"RAYON_NUM_THREADS": "1"}
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        self.cluster = LocalCluster(n_workers=cores, threads_per_worker=1, dashboard_address=None, env=alone)
+        with dask.config.set({"distributed.worker.profile.enabled": False}):
+            self.cluster = LocalCluster(n_workers=cores, threads_per_worker=1, dashboard_address=None, env=alone)
         self.own = Client(self.cluster)
         return self.own
 
