@@ -609,6 +609,32 @@ fn the_scheme_of_1994_refuses_a_current_over_time() {
     assert!(error.contains("environment.current_over_time: a current that changes"), "{error}");
 }
 
+/// A run longer than a record of the water is warned of, one within it is not; a record of steep waves breaks as other seas do.
+#[test]
+fn a_run_beyond_a_record_is_warned_of() {
+    let warnings = |duration: f64, environment: Value| {
+        let mut scene: Value = serde_json::from_str(include_str!("../examples/lindahl-sjoberg.json")).expect("the example");
+        scene["run"]["duration"] = json!(duration);
+        for (key, value) in environment.as_object().into_iter().flatten() {
+            scene["environment"][key] = value.clone();
+        }
+        read::parse(&scene.to_string(), "sea.json", Path::new("."), &[]).expect("a scene").warnings.join("\n")
+    };
+    let sea = |height: f64| json!({"waves": [value(REGULAR), elevation(record(400, |t| 0.5 * height * (TAU * 0.1 * t).cos()))]});
+    let tide = json!({"current_over_time": {"rows": [[0, 0, 0.1, 0, 0], [100, 0, 0.2, 0, 0]]}});
+    assert_eq!((warnings(200.0, sea(2.0)).as_str(), warnings(100.0, tide.clone()).as_str()), ("", ""));
+    let beyond = warnings(201.0, sea(2.0));
+    assert!(
+        beyond.contains("environment.waves[1]: the record goes from t = 0 to 200 s") && beyond.contains("repeats itself"),
+        "{beyond}"
+    );
+    let beyond = warnings(101.0, tide);
+    assert!(beyond.contains("environment.current_over_time") && beyond.contains("stays as it is there"), "{beyond}");
+    assert!(warnings(100.0, json!({"current_over_time": {"rows": [[0, 0, 0.1, 0, 0]]}})).is_empty());
+    // 4 √(15²/2) = 42.4 m of 10 s.
+    assert!(warnings(100.0, sea(30.0)).contains("environment.waves[1]: a wave 42.4"), "{}", warnings(100.0, sea(30.0)));
+}
+
 /// The period of a wave of the fifth order of a number k and a steepness ε = kH/2.
 fn period(k: f64, e: f64, depth: f64) -> f64 {
     let [c0, c2, c4] = Coefficients::new(k * depth).c;

@@ -73,6 +73,7 @@ fn scene(seed: u64) -> Scene {
             depth,
             seabed: Seabed::default(),
             current: if random.share() < 0.4 { current(&mut random) } else { Vec::new() },
+            current_over_time: None,
             waves: None,
             surface: if random.share() < 0.8 { Surface::Pierced } else { Surface::None },
         },

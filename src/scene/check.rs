@@ -19,6 +19,7 @@ mod waves;
 use crate::error::Error;
 use crate::scene::types::Scene;
 pub use motion::motion_table;
+pub use waves::beyond_records;
 
 /// A rule looks at the scene and finds one thing wrong, or nothing; the text is the file's name for the message.
 type Rule = fn(&Scene, &str) -> Result<(), Error>;

@@ -222,13 +222,16 @@ fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
         }
     }
     if records_read {
-        check::check(&loaded.scene, &loaded.file)?;
+        let warnings = check::check(&loaded.scene, &loaded.file)?;
+        let new: Vec<String> = warnings.into_iter().filter(|warning| !loaded.warnings.contains(warning)).collect();
+        loaded.warnings.extend(new);
     }
     if let Some(current) = &mut loaded.scene.environment.current_over_time
         && let Some(path) = current.path.take()
     {
         current.rows = Some(current_file::read(&directory.join(path))?);
     }
+    loaded.warnings.extend(check::beyond_records(&loaded.scene));
     for body in &loaded.scene.bodies {
         let load = body.load.as_ref().map(|path| load_file::read(&loaded.directory.join(path)).map(Arc::new));
         loaded.body_loads.push(load.transpose()?);

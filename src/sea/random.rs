@@ -5,8 +5,8 @@
 pub struct SplitMix(pub u64);
 
 impl SplitMix {
-    /// Uniform in [0, 1).
-    pub fn next(&mut self) -> f64 {
+    /// A number that is anywhere in [0, 1) alike.
+    pub fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -196,14 +196,14 @@ impl Cells {
         let mut random = SplitMix(seed);
         let (mut cell, mut below) = (0, 0.0);
         let wave = |bin: usize| {
-            let wanted = (bin as f64 + random.next()) / count as f64 * total;
+            let wanted = (bin as f64 + random.uniform()) / count as f64 * total;
             while cell + 1 < POINTS && below + energy[cell] <= wanted {
                 below += energy[cell];
                 cell += 1;
             }
             let share = if energy[cell] > 0.0 { ((wanted - below) / energy[cell]).clamp(0.0, 1.0) } else { 0.0 };
             let x = from + (cell as f64 + share) * step;
-            Wave { amplitude, omega: TAU * x / period, direction, phase: TAU * random.next() }
+            Wave { amplitude, omega: TAU * x / period, direction, phase: TAU * random.uniform() }
         };
         (0..count).map(wave).collect()
     }

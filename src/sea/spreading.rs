@@ -28,7 +28,7 @@ pub fn directions(s: f64, count: usize) -> Vec<f64> {
     let (mut cell, mut below) = (0, 0.0);
     let side: Vec<f64> = (0..count / 2)
         .map(|n| {
-            let wanted = (if count % 2 == 0 { n as f64 + 0.5 } else { n as f64 + 1.0 }) * 2.0 / count as f64 * whole;
+            let wanted = (if count.is_multiple_of(2) { n as f64 + 0.5 } else { n as f64 + 1.0 }) * 2.0 / count as f64 * whole;
             while cell + 1 < CELLS && below + shares[cell] <= wanted {
                 below += shares[cell];
                 cell += 1;
@@ -57,7 +57,7 @@ pub fn spread(waves: &mut [Wave], s: f64, count: usize, seed: u64) {
     let mut order: Vec<usize> = (0..count).collect();
     for neighbours in waves.chunks_mut(count) {
         for n in (1..count).rev() {
-            order.swap(n, (random.next() * (n + 1) as f64) as usize);
+            order.swap(n, (random.uniform() * (n + 1) as f64) as usize);
         }
         neighbours.iter_mut().zip(&order).for_each(|(wave, n)| wave.direction += directions[*n]);
     }

@@ -320,3 +320,29 @@ pub fn breaking_waves(scene: &Scene) -> Vec<String> {
     };
     seas.each().iter().enumerate().flat_map(of).collect()
 }
+
+/// Warning: the run begins before a record of the water does, or ends after it.
+pub fn beyond_records(scene: &Scene) -> Vec<String> {
+    let (start, end) = (scene.run.start, scene.run.end());
+    let beyond = |place: &str, [first, last]: [f64; 2], then: &str| {
+        (start < first || end > last).then(|| {
+            let [first, last, start, end] = [first, last, start, end].map(number);
+            format!("{place}: the record goes from t = {first} to {last} s and the run from {start} to {end} s; beyond it {then}")
+        })
+    };
+    let seas = scene.environment.waves.as_ref();
+    let of = |(index, sea): (usize, &Waves)| {
+        let record = sea.record()?;
+        let place = seas.map(|seas| seas.place(index)).unwrap_or_default();
+        beyond(&place, [record.start, record.start + record.period], "the sea repeats itself")
+    };
+    let rows = scene.environment.current_over_time.as_ref().and_then(|current| current.rows.as_ref());
+    let current = rows.and_then(|rows| {
+        let [first, last] = [rows.first()?[0], rows.last()?[0]];
+        // One profile is a steady current.
+        (last > first)
+            .then(|| beyond("environment.current_over_time", [first, last], "the current stays as it is there"))
+            .flatten()
+    });
+    seas.into_iter().flat_map(|seas| seas.each().iter().enumerate().filter_map(of)).chain(current).collect()
+}
