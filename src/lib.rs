@@ -128,6 +128,7 @@ pub mod cable1994 {
 /// Statics and time.
 pub mod solve {
     pub mod adams_moulton;
+    pub mod between;
     pub mod bow;
     pub mod condensed;
     pub mod controller;

@@ -9,7 +9,7 @@ use crate::error::{Error, MoorDynProblem};
 use crate::scene::bodies::{Body, BodyMotion, Inertia, Mount, PointMotion, Stiffness as Clamping};
 use crate::scene::moordyn::options::{Depth, Options};
 use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
-use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, RodKind, Stiffness};
+use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, RodKind, Stiffness, deck_attitude};
 use crate::scene::types::{Environment, Line, Motion, Scene, Stretch, Surface, Triple};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -190,7 +190,7 @@ impl Writer<'_> {
             id,
             attachment: if body.is_free() { Attachment::Free } else { Attachment::Coupled },
             position: body.position,
-            attitude: body.attitude_deg,
+            attitude: deck_attitude(body.attitude_deg),
             mass: 0.0,
             centre: [0.0; 3],
             inertia: [0.0; 3],
