@@ -17,6 +17,7 @@ use crate::scene::types::{Attachment, Scene, Surface};
 use crate::sea::clock::Clock;
 use crate::sea::current::Current;
 use crate::sea::waves::Waves;
+use crate::solve::between::Place;
 use crate::solve::controller::{self, Controller, Demands, Failure};
 use crate::solve::motion::{Ends, Path};
 use crate::solve::network::Network;
@@ -534,6 +535,11 @@ impl Group {
     /// Nodes of one of its lines now, from the fairlead.
     pub fn nodes(&mut self, local: usize) -> Vec<NodeOutput> {
         self.shown(local).nodes()
+    }
+
+    /// What one of its lines is like now at arc lengths from its fairlead [m].
+    pub fn places(&mut self, local: usize, at: &[f64]) -> Vec<Place> {
+        self.shown(local).places(at)
     }
 
     /// One of its lines, to be asked about mesh and physics.

@@ -16,6 +16,7 @@ use crate::rod::pose::PosePath;
 use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::System;
+use crate::scene::types::Scene;
 use crate::solve::condensed::Condensed;
 use crate::solve::motion::Path;
 use crate::solve::newton::{Effort, motion};
@@ -309,6 +310,15 @@ impl Group {
             (0..6).for_each(|c| matrix.diagonal[node][(c, c)] += 1.0e-9 * size);
         }
         self.network.fixed.iter().for_each(|&(node, component)| matrix.fix(node, component));
+    }
+
+    /// Puts the lines in equilibrium at a time, with all that is free at rest where a scene has it, to be let go there.
+    pub fn hold(&mut self, time: f64, scene: &Scene) -> Result<StaticsReport, Error> {
+        self.put_as_in(scene);
+        self.clamp_lines();
+        let here = self.try_at(self.start(time))?;
+        self.begin_from(here.state);
+        Ok(StaticsReport { iterations: 1, residual: here.force, converged: true, others: false })
     }
 
     /// Begins anew from a state at rest.
