@@ -56,16 +56,24 @@ impl Libraries {
         let folders = program.ancestors().skip(1).take(2);
         let mut libraries = Libraries::default();
         for folder in folders {
-            libraries.add_from(folder);
-            libraries.add_from(&folder.join("deps"));
+            // cargo leaves the library in `deps`, and some of its commands do not renew the one beside the program.
+            libraries.add_newest(&[folder, &folder.join("deps")]);
         }
         libraries
     }
 
     /// Adds what lies in a folder and is not there yet.
     pub fn add_from(&mut self, folder: &Path) {
+        self.add_newest(&[folder]);
+    }
+
+    /// Adds the newest of what lies in one of these folders and is not there yet.
+    fn add_newest(&mut self, folders: &[&Path]) {
         for (platform, _, names) in PLATFORMS {
-            if let Some(file) = names.iter().map(|name| folder.join(name)).find(|file| file.is_file()) {
+            let found = |folder: &&Path| names.iter().map(|name| folder.join(name)).find(|file| file.is_file());
+            let written = |file: &PathBuf| file.metadata().and_then(|data| data.modified()).ok();
+            // The first of those that are equally new.
+            if let Some(file) = folders.iter().rev().filter_map(found).max_by_key(written) {
                 self.files.entry(platform).or_insert(file);
             }
         }
@@ -548,16 +556,25 @@ mod tests {
         assert!(osp_description(&Interface::new(&scene)).contains("<Variable ref=\"'stern line'.force.x\"/>"));
     }
 
-    /// `cargo run` in an empty folder leaves the program in `target/release` and its library in `target/release/deps`.
+    /// `cargo run` in an empty folder leaves the program in `target/release` and its library in `target/release/deps`; `cargo test` renews the
+    /// latter alone, where `cargo build` had made both one.
     #[test]
     fn the_library_is_found_where_cargo_run_leaves_it() {
         let folder = std::env::temp_dir().join(format!("moorline-pack-{}", std::process::id()));
         std::fs::create_dir_all(folder.join("deps")).unwrap();
         assert!(Libraries::beside(&folder.join("moorline")).files.is_empty());
-        std::fs::write(folder.join("deps/libmoorline.so"), b"").unwrap();
-        let found = Libraries::beside(&folder.join("moorline"));
+        let [inner, outer] = ["deps/libmoorline.so", "libmoorline.so"].map(|name| folder.join(name));
+        let found = || Libraries::beside(&folder.join("moorline")).files.into_values().collect::<Vec<_>>();
+        std::fs::write(&inner, b"").unwrap();
+        assert_eq!(found(), [inner.clone()]);
+        std::fs::hard_link(&inner, &outer).unwrap();
+        assert_eq!(found(), [outer.clone()]);
+        std::fs::remove_file(&inner).unwrap();
+        std::fs::write(&inner, b"").unwrap();
+        let later = std::time::SystemTime::now() + std::time::Duration::from_secs(10);
+        std::fs::File::options().write(true).open(&inner).unwrap().set_modified(later).unwrap();
+        assert_eq!(found(), [inner]);
         std::fs::remove_dir_all(&folder).unwrap();
-        assert_eq!(found.files.len(), 1);
     }
 
     /// FMI's structured names are ASCII; what tools make buses of is left out of flat ones; names that meet are refused.
