@@ -98,6 +98,18 @@ pub enum Error {
         /// Time reached [s].
         time: f64,
     },
+    /// A run over many seeds of which one failed or was stopped; the others went on, unless the user stopped all.
+    #[error("{done} of {of} seeds are done; seed {seed}: {error}")]
+    Seed {
+        /// How many seeds reached their end.
+        done: usize,
+        /// How many were asked for.
+        of: usize,
+        /// The first that did not.
+        seed: u64,
+        /// Why.
+        error: Box<Error>,
+    },
 }
 
 impl Error {
@@ -113,6 +125,7 @@ impl Error {
             | Error::Reach(_) => 2,
             Error::Statics(_) | Error::Step(_) | Error::Network(_) => 3,
             Error::Interrupted { .. } => 130,
+            Error::Seed { error, .. } => error.exit_code(),
         }
     }
 }

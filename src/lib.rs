@@ -19,6 +19,7 @@ pub mod cli {
     pub mod progress;
     pub mod run;
     pub mod schema;
+    pub mod seeds;
     pub mod statics;
     pub mod stop;
 }
@@ -127,6 +128,7 @@ pub mod cable1994 {
 /// Statics and time.
 pub mod solve {
     pub mod adams_moulton;
+    pub mod between;
     pub mod bow;
     pub mod condensed;
     pub mod controller;
@@ -197,15 +199,21 @@ pub mod fmi {
 pub mod report {
     pub mod cable_files;
     pub mod course;
+    pub mod extremes;
     pub mod moordyn_out;
     pub mod offsets;
     pub mod page;
     pub mod page_data;
+    pub mod rainflow;
     pub mod record;
     #[cfg(test)]
     pub mod sample;
     pub mod schedule;
+    pub mod seeds;
+    pub mod statistics;
+    pub mod statistics_page;
     pub mod tables;
     pub mod units;
     pub mod vtk;
+    pub mod welch;
 }

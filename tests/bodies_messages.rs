@@ -70,10 +70,6 @@ fn every_fault_is_named_with_its_place_and_what_is_allowed() {
         ),
         ("lines[1].constraints=[{\"s\": 0, \"stiffness\": [1, 1, 1]}]", &["lines[1].constraints", "hangs on \"knot\""]),
         (
-            "lines[1].anchor={\"body\": \"buoy\", \"at\": [1, 0, 0], \"direction\": [1, 0, 0]}",
-            &["lines[1].anchor.direction", "a clamp on \"buoy\"", "fixed or driven body only"],
-        ),
-        (
             "lines[0].fairlead={\"body\": \"ship\", \"at\": [50, 0, -3], \"direction\": [0, 0, -1]}",
             &["lines[0].fairlead.direction", "give line_types.chain.ei"],
         ),

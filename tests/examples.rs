@@ -147,6 +147,19 @@ fn riser_bends_as_a_tensioned_beam() {
     assert_close("end force across", line.outputs().force.x, 0.5 * q * length, 2e-3);
 }
 
+/// Source: a tensioned beam, EI y⁗ = T y″, y(0) = 0, y′(0) = θ, y(L) = y″(L) = 0: M = T θ / (k coth kL - 1/L). To the square of θ = 2°.
+#[test]
+fn clamped_riser_turns_its_vessel_as_a_tensioned_beam() {
+    let (mooring, outputs) = moored(&load("clamped-riser.json"));
+    let (length, ei, theta, tension) = (100.0, 1.0e8, 2.0_f64.to_radians(), outputs[0].anchor_tension);
+    let k = f64::sqrt(tension / ei);
+    let moment = tension * theta / (k / f64::tanh(k * length) - 1.0 / length);
+    assert_close("moment at the hang-off", outputs[0].moment.y.abs(), moment, 2e-3);
+    let vessel = mooring.bodies(0.0, &[], &outputs)[0];
+    assert_close("moment on the vessel", vessel.moment.y, outputs[0].moment.y, 1e-9);
+    assert!(vessel.moment.y < 0.0, "it turns the vessel back");
+}
+
 /// Source: elastic wave in a bar, ΔT = v √(EA m) behind the front; the anchor sees it after L √(m/EA) = 0.52 s, doubled by its
 /// reflection. The fairlead is at full speed from t = 0.54 s on. Means over the plateaus; the front itself rings a little.
 #[test]

@@ -176,6 +176,11 @@ fn a_moored_ship_in_one_fmu_goes_through_what_a_line_goes_through() {
 }
 
 #[test]
+fn a_vessel_with_a_clamped_riser_feels_its_moment() {
+    moored("clamped-riser", "tests/fmu/clamped.py", &[]);
+}
+
+#[test]
 fn held_inputs_warnings_and_clocks_are_understood() {
     script("multirate.py");
     script("told.py");

@@ -4,7 +4,7 @@
 
 use moorline::error::Error;
 use moorline::scene::read::{Loaded, built_in, load, parse, schema};
-use moorline::scene::types::{Motion, Scene, Scheme, Seas, Stretch, Surface, Waves};
+use moorline::scene::types::{Fatigue, Motion, Scene, Scheme, Seas, Stretch, Surface, Waves};
 use moorline::scene::{check, motion_file};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -117,6 +117,33 @@ const BAD_EDITS: &[(&str, &str, &[&str])] = &[
     (r#""damping": 4.0e-4"#, r#""damping": -4.0e-4"#, &["line_types.chain.damping", "-0.0004", "0 or greater"]),
     (r#""damping": 4.0e-4"#, r#""ei": -1.0"#, &["line_types.chain.ei", "-1", "0 or greater"]),
     (r#""damping": 4.0e-4"#, r#""breaking_load": 0.0"#, &["line_types.chain.breaking_load", ": 0 is not allowed"]),
+    (
+        r#""damping": 4.0e-4"#,
+        r#""breaking_load": 6e6, "fatigue": {"m": 0.5, "k": 316}"#,
+        &["line_types.chain.fatigue.m: 0.5 is not allowed", "between 1 and 20", "3 is usual for chain"],
+    ),
+    (
+        r#""damping": 4.0e-4"#,
+        r#""breaking_load": 6e6, "fatigue": {"m": 3, "k": 6e10}"#,
+        &["line_types.chain.fatigue.k: 6e10 is not allowed", "between 0.001 and 1e7", "k = a·(area / breaking load)^m"],
+    ),
+    (
+        r#""damping": 4.0e-4"#,
+        r#""breaking_load": 6e6, "fatigue": {"m": 3, "k": -316}"#,
+        &["line_types.chain.fatigue.k: -316 is not allowed"],
+    ),
+    (
+        r#""damping": 4.0e-4"#,
+        r#""fatigue": {"m": 3, "k": 316}"#,
+        &["line_types.chain.breaking_load: nothing is not allowed", "give it [N]"],
+    ),
+    (r#""damping": 4.0e-4"#, r#""breaking_load": 6e6, "fatigue": {"m": 3}"#, &["line_types.chain.fatigue", "`k` is missing"]),
+    (
+        r#""duration": 120.0"#,
+        r#""duration": 120.0, "transient": 120"#,
+        &["run.transient: 120 s is not allowed", "less than run.duration, 120 s"],
+    ),
+    (r#""duration": 120.0"#, r#""duration": 120.0, "transient": -1"#, &["run.transient: -1 is not allowed", "0 or greater"]),
     (
         r#""damping": 4.0e-4"#,
         r#""buoyancy": 100.0"#,
@@ -597,6 +624,8 @@ fn a_scene_with_every_supported_key_is_read_and_survives_writing() {
     assert_eq!((*amplitude, *phase_deg, *ramp), (2.0, 90.0, Some(15.0)));
     assert_eq!((scene.environment.current[1].z, scene.line_types["rope"].buoyancy), (-120.0, Some(170.171)));
     assert_eq!((scene.lines[0].sections[0].elements, scene.lines[1].name.as_str()), (Some(10), "line2"));
+    let Some(Fatigue { m, k }) = scene.line_types["rope"].fatigue else { panic!("no T–N curve") };
+    assert_eq!((m, k, scene.run.transient), (4.09, 231.0, Some(20.0)));
     assert_eq!(
         (scene.solver.scheme, scene.solver.law(), scene.solver.fixed_step),
         (Scheme::Esdirk3, Stretch::Report, Some(0.05))

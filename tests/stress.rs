@@ -44,6 +44,7 @@ fn line_type(random: &mut Random) -> LineType {
         damping: if random.share() < 0.5 { 0.0 } else { random.magnitude(1.0e-4, 1.0e-2) },
         tension_strain: None,
         breaking_load: None,
+        fatigue: None,
         inner_fluid: None,
         outer_area: None,
         seabed_stiffness: None,
@@ -73,6 +74,7 @@ fn scene(seed: u64) -> Scene {
             depth,
             seabed: Seabed::default(),
             current: if random.share() < 0.4 { current(&mut random) } else { Vec::new() },
+            current_over_time: None,
             waves: None,
             surface: if random.share() < 0.8 { Surface::Pierced } else { Surface::None },
         },
@@ -95,7 +97,7 @@ fn scene(seed: u64) -> Scene {
             cosine: [0.0; 3],
             ramp: None,
         },
-        run: Run { duration: 2.0, start: 0.0, output_step: random.magnitude(0.05, 0.5) },
+        run: Run { duration: 2.0, start: 0.0, output_step: random.magnitude(0.05, 0.5), transient: None },
         solver: Solver::default(),
     }
 }

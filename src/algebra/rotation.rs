@@ -65,6 +65,17 @@ pub fn angles(r: &Matrix3<f64>) -> Vector3<f64> {
     Vector3::new(r[(2, 1)].atan2(r[(2, 2)]), (-r[(2, 0)]).atan2(cosine), r[(1, 0)].atan2(r[(0, 0)]))
 }
 
+/// R = Rx(α) Ry(β) Rz(γ) of angles [rad] about x, y and z, each about the axis that the ones before have turned: MoorDyn's.
+pub fn of_angles_xyz(angles: &Vector3<f64>) -> Matrix3<f64> {
+    // The transpose turns back, in the other order and by the other signs.
+    of_angles(&-angles).transpose()
+}
+
+/// The angles of `of_angles_xyz` [rad]; that about y within ±π/2.
+pub fn angles_xyz(r: &Matrix3<f64>) -> Vector3<f64> {
+    -angles(&r.transpose())
+}
+
 /// E: the rates of roll, pitch and yaw to ω.
 pub fn rates_to_omega(angles: &Vector3<f64>) -> Matrix3<f64> {
     Attitude::of(angles).rates_to_omega()
@@ -150,6 +161,15 @@ mod tests {
             close(&omega_to_rates(&q(t), &w(t)), &rate(t), 1e-12);
             close(&angles(&of_angles(&q(t))), &q(t), 1e-12);
         }
+    }
+
+    /// Turns about x, y and z one after the other, each about axes that have been turned, as a product of rotation vectors.
+    #[test]
+    fn angles_about_turned_axes_come_in_their_order() {
+        let q = Vector3::new(0.4, -0.7, 2.1);
+        let about = |axis: usize| exp(&(Vector3::ith(axis, 1.0) * q[axis]));
+        assert!((of_angles_xyz(&q) - about(0) * about(1) * about(2)).norm() < 1e-14);
+        close(&angles_xyz(&of_angles_xyz(&q)), &q, 1e-14);
     }
 
     /// The same for rotation vectors, also where series take over.

@@ -60,6 +60,9 @@ pub struct RunOptions {
     /// Value to put into the scene before it is checked, such as run.duration=60; repeatable
     #[arg(long = "set", value_name = "PLACE=VALUE")]
     pub sets: Vec<String>,
+    /// Seeds of the random sea, such as 1:20 or 3,7,9: a run of each on all cores, into DIR/seed-N, and one summary
+    #[arg(long, value_name = "SEEDS", allow_hyphen_values = true)]
+    pub seeds: Option<String>,
     /// Write the snapshots for ParaView too: DIR/vtk/lines.pvd, and bodies.pvd where there are bodies
     #[arg(long)]
     pub vtk: bool,

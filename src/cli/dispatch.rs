@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::{Arguments, Command, RunArguments};
 use crate::cli::stop::Stop;
-use crate::cli::{check, console, convert, fit, pack, run, schema, statics};
+use crate::cli::{check, console, convert, fit, pack, run, schema, seeds, statics};
 use clap::Parser;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -12,6 +12,11 @@ pub fn main(arguments: impl Iterator<Item = OsString>) -> ExitCode {
     ExitCode::from(answer(arguments))
 }
 
+/// One run, or one for each seed.
+fn run_or_seeds(arguments: &RunArguments) -> Result<(), Stop> {
+    arguments.options.seeds.as_deref().map_or_else(|| run::run(arguments), |seeds| seeds::run(arguments, seeds))
+}
+
 /// The same for a program in another language: the exit code as a number.
 pub fn answer(arguments: impl Iterator<Item = OsString>) -> u8 {
     let arguments = match Arguments::try_parse_from(arguments) {
@@ -19,8 +24,8 @@ pub fn answer(arguments: impl Iterator<Item = OsString>) -> u8 {
         Err(answer) => return console::usage(&answer),
     };
     let outcome = match arguments.command {
-        None => run::run(&RunArguments { scene: None, options: arguments.run }),
-        Some(Command::Run(arguments)) => run::run(&arguments),
+        None => run_or_seeds(&RunArguments { scene: None, options: arguments.run }),
+        Some(Command::Run(arguments)) => run_or_seeds(&arguments),
         Some(Command::Statics(arguments)) => statics::statics(&arguments),
         Some(Command::Fit(arguments)) => fit::fit(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),

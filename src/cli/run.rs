@@ -14,6 +14,7 @@ use crate::report::moordyn_out;
 use crate::report::page;
 use crate::report::record::Record;
 use crate::report::schedule::Schedule;
+use crate::report::statistics;
 use crate::report::tables::{self, Nodes, TimeSeries};
 use crate::report::units::{count, sim_time, wall_time};
 use crate::report::vtk;
@@ -25,6 +26,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
+/// Directory of the files for ParaView, in that of the results.
+const PICTURES: &str = "vtk";
+
 /// Runs a scene and leaves the results in the output directory, also of a run that fails or is stopped half way.
 pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     let sets = &arguments.options.sets;
@@ -33,42 +37,66 @@ pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
     if !quiet {
         loaded.warnings.iter().for_each(|warning| console::warning(warning));
     }
-    let schedule = Schedule::new(&loaded.scene.run);
-    let mut record = Record::new(&loaded.scene, &loaded.file, loaded.warnings.clone(), schedule.snapshot_step());
-    let started = Instant::now();
-    let mut course = Course::new(&loaded)?;
-    record.statics_seconds = started.elapsed().as_secs_f64();
-
-    let files = Files::of(&arguments.options.output)?;
-    let progress = Progress::new(schedule.rows(), record.scene.run.end(), quiet);
-    let mut tables = Tables::create(&files, &record, &loaded, &arguments.options.output, progress)?;
-    let pictures = arguments.options.output.join("vtk");
-    tables.vtk = arguments.options.vtk.then(|| vtk::Series::create(&pictures, &loaded.scene)).transpose()?;
     let interrupt = Interrupt::watch();
-    let stop = || interrupt.came();
-    let wanted = Wanted { schedule: &schedule, text: true, walls: tables.walls, states: tables.cable.is_some(), stop: &stop };
-    let outcome = course.run(&wanted, &mut record, &mut tables);
-    drop(tables);
-    record.ended_by = outcome.as_ref().err().cloned();
-    tables::write(&files.summary, &tables::summary(&record))?;
-    tables::write(&files.report, &page::html(&record))?;
-    if let Some(text) = loaded.moordyn.as_ref().and_then(|deck| moordyn_out::text(&record, deck)) {
-        let stem = Path::new(&loaded.file).file_stem().unwrap_or_default().to_string_lossy();
-        tables::write(&arguments.options.output.join(format!("{stem}.out")), &text)?;
-    }
-    let built_in_done = arguments.scene.is_none() && outcome.is_ok();
+    let progress = Progress::new(Schedule::new(&loaded.scene.run).rows(), loaded.scene.run.end(), quiet);
+    let (record, files) =
+        into_directory(&loaded, &arguments.options.output, arguments.options.vtk, progress, &|| interrupt.came())?;
+    let built_in_done = arguments.scene.is_none() && record.ended_by.is_none();
     let fmu = if built_in_done { leave_fmu(&loaded, &arguments.options.output)? } else { String::new() };
     if !quiet {
         // Warnings of the scene were given before the run; what the run itself has to say comes after it.
         record.warnings().iter().skip(loaded.warnings.len()).for_each(|warning| console::warning(warning));
         let paraview = if arguments.options.vtk {
-            format!("  {}  this one in ParaView\n", pictures.join(vtk::LINES).display())
+            format!("  {}  this one in ParaView\n", arguments.options.output.join(PICTURES).join(vtk::LINES).display())
         } else {
             String::new()
         };
         console::print(&(printed_summary(&record, &files) + &paraview + &fmu))?;
     }
-    Ok(outcome?)
+    record.ended_by.map_or(Ok(()), |error| Err(error.into()))
+}
+
+/// Runs a scene and leaves the results in a directory, files for ParaView among them where `vtk`. The record says how far the run came; an error here is one before its first row, or
+/// of a file that cannot be written.
+pub fn into_directory(
+    loaded: &Loaded,
+    directory: &Path,
+    vtk: bool,
+    progress: Progress,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<(Record, Files), Error> {
+    let schedule = Schedule::new(&loaded.scene.run);
+    let mut record = Record::new(&loaded.scene, &loaded.file, loaded.warnings.clone(), schedule.snapshot_step());
+    let started = Instant::now();
+    let mut course = Course::new(loaded)?;
+    record.statics_seconds = started.elapsed().as_secs_f64();
+
+    let files = Files::of(directory)?;
+    let mut tables = Tables::create(&files, &record, loaded, directory, progress)?;
+    tables.vtk = vtk.then(|| vtk::Series::create(&directory.join(PICTURES), &loaded.scene)).transpose()?;
+    let wanted = Wanted { schedule: &schedule, text: true, walls: tables.walls, states: tables.cable.is_some(), stop };
+    let outcome = course.run(&wanted, &mut record, &mut tables);
+    drop(tables);
+    record.ended_by = outcome.err();
+    tables::write(&files.summary, &tables::summary(&record))?;
+    tables::write(&files.report, &page::html(&record))?;
+    for (file, text) in [(&files.spectra, tables::spectra(&record)), (&files.rainflow, tables::cycles(&record))] {
+        text.map_or(Ok(()), |text| tables::write(file, &text))?;
+    }
+    if let Some(text) = loaded.moordyn.as_ref().and_then(|deck| moordyn_out::text(&record, deck)) {
+        let stem = Path::new(&loaded.file).file_stem().unwrap_or_default().to_string_lossy();
+        tables::write(&directory.join(format!("{stem}.out")), &text)?;
+    }
+    Ok((record, files))
+}
+
+/// Makes a directory for results.
+pub fn made(directory: &Path) -> Result<&Path, Error> {
+    std::fs::create_dir_all(directory).map_err(|error| Error::File {
+        path: directory.display().to_string(),
+        reason: format!("the output directory cannot be made: {error}. Choose another with -o DIR."),
+    })?;
+    Ok(directory)
 }
 
 /// Puts the built-in case's FMU beside its results; what the summary says of it. A program that was installed without the FMU's library
@@ -84,27 +112,30 @@ fn leave_fmu(loaded: &Loaded, directory: &Path) -> Result<String, Error> {
 }
 
 /// Where the results go.
-struct Files {
+pub struct Files {
     time_series: PathBuf,
     nodes: PathBuf,
     summary: PathBuf,
     report: PathBuf,
+    /// Where there are statistics of a random sea.
+    spectra: PathBuf,
+    /// Where there are T–N curves.
+    rainflow: PathBuf,
 }
 
 impl Files {
     /// Makes the directory. A summary and report of an earlier run go, lest they stand beside the rows of this one.
     fn of(directory: &Path) -> Result<Files, Error> {
-        std::fs::create_dir_all(directory).map_err(|error| Error::File {
-            path: directory.display().to_string(),
-            reason: format!("the output directory cannot be made: {error}. Choose another with -o DIR."),
-        })?;
+        made(directory)?;
         let files = Files {
             time_series: directory.join("timeseries.csv"),
             nodes: directory.join("nodes.csv"),
             summary: directory.join("summary.json"),
             report: directory.join("report.html"),
+            spectra: directory.join("spectra.csv"),
+            rainflow: directory.join("rainflow.csv"),
         };
-        for old in [&files.summary, &files.report] {
+        for old in [&files.summary, &files.report, &files.spectra, &files.rainflow] {
             // Where this fails, writing the new file says why.
             let _ = std::fs::remove_file(old);
         }
@@ -181,6 +212,7 @@ fn printed_summary(record: &Record, files: &Files) -> String {
         record.scene.solver.tolerance,
     );
     tension_table(&mut text, record);
+    random_sea(&mut text, record);
     work(&mut text, record);
     let rows = count(record.times.len(), "row");
     let snapshots = count(record.snapshot_times.len(), "snapshot");
@@ -212,6 +244,28 @@ fn tension_table(text: &mut String, record: &Record) {
             unit.show(tension.min),
             sim_time(tension.min_time) + " s",
         );
+    }
+    let _ = writeln!(text);
+}
+
+/// What the tensions at the fairleads amount to in a random sea.
+fn random_sea(text: &mut String, record: &Record) {
+    let Some(statistics) = statistics::of(record) else { return };
+    let unit = record.force_unit();
+    let names: Vec<String> = record.lines.iter().map(|line| on_terminal(&line.name)).collect();
+    let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max("fairlead".len());
+    let of_three = "most probable of 3 h";
+    let _ = writeln!(text, "  {:<width$}{:>14}{:>14}{:>12}{of_three:>24}  90 %", "fairlead", "mean", "std", "skewness");
+    for ([of, _], name) in statistics.lines.iter().zip(&names) {
+        let figures = &of.figures;
+        let [mean, std] = [figures.mean, figures.std].map(|value| unit.show(value));
+        let _ = write!(text, "  {name:<width$}{mean:>14}{std:>14}{:>12.2}", figures.skewness);
+        let _ = match (figures.extreme.most_probable_maximum, figures.extreme.interval_90) {
+            (Some(value), Some([low, high])) => {
+                writeln!(text, "{:>24}  {} to {}", unit.show(value), unit.number(low), unit.show(high))
+            }
+            _ => writeln!(text, "{:>24}", figures.extreme.method),
+        };
     }
     let _ = writeln!(text);
 }

@@ -13,11 +13,13 @@ use crate::fmi::refusal::Refusal;
 use crate::fmi::resource;
 use crate::fmi::snapshot::{End, Moment, State};
 use crate::fmi::variables::{DEFAULT_STEP, Interface, Kind, LOG_CATEGORIES, Meaning, Variable};
-use crate::fmi::vessel::Vessel;
+use crate::fmi::vessel::{Reached, Vessel};
 use crate::fmi::warnings::{self, Limits};
 use crate::scene::check;
 use crate::scene::types::{Motion, Scene};
+use crate::solve::between::Place;
 use crate::solve::simulation::{LastStep, Outputs};
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -49,6 +51,8 @@ pub struct Instance {
     states: BTreeMap<usize, Box<State>>,
     logged: Vec<&'static str>,
     messages: Vec<Message>,
+    /// What is free is not put in equilibrium, but let go where the scene has it.
+    let_go: bool,
 }
 
 impl Instance {
@@ -69,7 +73,23 @@ impl Instance {
         let moment = first_moment(&interface);
         let fingerprint = resource::fingerprint(resource::guid(scene).as_bytes());
         let logged = if logging { LOG_CATEGORIES.to_vec() } else { Vec::new() };
-        Instance { interface, fingerprint, moment, built: None, states: BTreeMap::new(), logged, messages: Vec::new() }
+        Instance {
+            interface,
+            fingerprint,
+            moment,
+            built: None,
+            states: BTreeMap::new(),
+            logged,
+            messages: Vec::new(),
+            let_go: false,
+        }
+    }
+
+    /// Whether free bodies and points begin where the scene has them, at rest and out of balance, instead of in equilibrium.
+    pub fn let_go(&mut self, on: bool) {
+        if self.let_go != on {
+            (self.let_go, self.moment.settled) = (on, false);
+        }
     }
 
     /// What there is to tell since the last call of this function.
@@ -364,7 +384,8 @@ impl Instance {
             vessel.settle(&built.conventions[index], of.arm, start);
         }
         let said: Vec<Said> = self.moment.vessels.iter().map(|vessel| vessel.said).collect();
-        let reports = built.settle(start, &said).map_err(|error| self.refusal(error))?;
+        let reports =
+            built.settle(start, &said, self.let_go.then(|| self.interface.scene())).map_err(|error| self.refusal(error))?;
         for (index, report) in reports.into_iter().enumerate() {
             let outputs = built.outputs(index);
             if !is_finite(&outputs) {
@@ -451,6 +472,28 @@ impl Instance {
     pub fn last_successful_time(&self) -> Result<f64, Refusal> {
         self.check(Call::GetStatus)?;
         Ok(self.moment.clock)
+    }
+
+    /// What a line is like now at arc lengths from its fairlead [m]; none where there is no such line, or no equilibrium yet.
+    pub fn places(&mut self, line: usize, at: &[f64]) -> Option<Vec<Place>> {
+        let built = self.built.as_mut().filter(|_| self.moment.settled)?;
+        (line < built.lines.len()).then(|| built.places(line, at))
+    }
+
+    /// Outputs of a line at the time reached; none where there is no such line, or no equilibrium yet.
+    pub fn outputs(&self, line: usize) -> Option<&Outputs> {
+        self.moment.ends.get(line).filter(|_| self.moment.settled).map(|end| &end.outputs)
+    }
+
+    /// Where a body is at the time reached and what the lines do to it, in the axes of the scene; none as for `outputs`.
+    pub fn reached(&self, body: usize) -> Option<&Reached> {
+        self.moment.vessels.get(body).filter(|_| self.moment.settled).map(|vessel| &vessel.reached)
+    }
+
+    /// Position [m] and velocity [m/s] of a free point of the scene at the time reached; none as for `outputs`.
+    pub fn point(&self, point: usize) -> Option<[Vector3<f64>; 2]> {
+        let (_, motion) = self.moment.points.iter().find(|(number, _)| *number == point)?;
+        Some(*motion)
     }
 
     /// Keeps the present state under a handle: the given one, if it is not zero, else a new one.

@@ -3,7 +3,7 @@
 use crate::report::record::Record;
 use crate::scene::moordyn::outputs::Quantity;
 use crate::scene::moordyn::words::{LineEnd, Side};
-use crate::scene::moordyn::{Deck, DeckBody, DeckLine};
+use crate::scene::moordyn::{Deck, DeckBody, DeckLine, deck_attitude};
 use std::fmt::Write;
 
 /// The text of the file; none: the deck asks for nothing.
@@ -50,6 +50,8 @@ fn column(record: &Record, deck: &Deck, quantity: Quantity) -> Option<Vec<f64>> 
             column(record, deck, Quantity::EndOfLine(of, if end == 0 { Side::A } else { Side::B }, axis))
         }
         Quantity::Body(id, axis) => Some(body(id)?.rows.iter().map(|row| row.pose.position[axis]).collect()),
-        Quantity::Turn(id, axis) => Some(body(id)?.rows.iter().map(|row| row.pose.angles[axis].to_degrees()).collect()),
+        Quantity::Turn(id, axis) => {
+            Some(body(id)?.rows.iter().map(|row| deck_attitude(row.pose.angles.map(f64::to_degrees).into())[axis]).collect())
+        }
     }
 }

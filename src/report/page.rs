@@ -3,6 +3,7 @@
 
 use crate::report::page_data;
 use crate::report::record::{LineRecord, Record, Statistics};
+use crate::report::statistics_page;
 use crate::report::units::{ForceUnit, count, sim_time, wall_time};
 use crate::scene::types::Motion;
 use std::fmt::Write;
@@ -13,6 +14,7 @@ const JS: &str = concat!(
     include_str!("page/data.js"),
     include_str!("page/plots.js"),
     include_str!("page/shape.js"),
+    include_str!("page/random.js"),
     include_str!("page/page.js")
 );
 /// uPlot 1.6.32 (npm `uplot`, dist/uPlot.iife.min.js), unchanged: small, fast with 10⁵ points, and it needs nothing else.
@@ -32,6 +34,7 @@ pub fn html(record: &Record) -> String {
         "warnings" => warnings(&record.warnings()),
         "figures" => figures(record, unit),
         "thinning" => thinning(record, page_data.rows),
+        "random" => statistics_page::section(record, unit, escaped),
         "summary" => summary(record, unit),
         "solver" => solver(record),
         "scene" => escaped(&serde_json::to_string_pretty(&record.scene).unwrap_or_default()),

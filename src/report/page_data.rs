@@ -2,6 +2,7 @@
 //! and of a long run only as many rows and snapshots as a screen can show.
 
 use crate::report::record::{LineRecord, PointRecord, Record, Statistics, touchdown};
+use crate::report::statistics_page;
 use crate::report::units::ForceUnit;
 use crate::scene::bodies::Mount;
 use crate::solve::loads::BodyOutputs;
@@ -41,6 +42,7 @@ struct Data<'a> {
     lines: Vec<Line<'a>>,
     bodies: Vec<Body<'a>>,
     points: Vec<Point<'a>>,
+    random: Vec<statistics_page::End>,
 }
 
 /// A body: its pose over time, the loads of the lines on it, and edges that show it, in its own axes.
@@ -139,6 +141,7 @@ pub fn json(record: &Record, unit: ForceUnit) -> PageData {
         lines: (0..record.lines.len()).map(|index| line(record, index, &rows, &snapshots, &quanta)).collect(),
         bodies: (0..record.bodies.len()).map(|index| body(record, index, &rows)).collect(),
         points: record.points.iter().map(|of| point(of, &rows)).collect(),
+        random: statistics_page::data(record),
     };
     // Numbers and strings only: there is nothing in them that JSON cannot hold.
     PageData { text: serde_json::to_string(&data).unwrap_or_default(), rows: rows.len() }
@@ -368,6 +371,25 @@ mod tests {
         assert!(data.rows < ROWS && data.rows > ROWS / 4, "{} rows", data.rows);
         assert!(data.text.contains("9870000"), "the peak");
         assert!(data.text.len() < 3_000_000, "{} bytes", data.text.len());
+    }
+
+    /// With statistics, too: three hours of a random sea in rows 0.1 s apart.
+    #[test]
+    fn the_statistics_of_a_storm_stay_small() {
+        let mut storm = record(108_001);
+        storm.scene.environment.waves =
+            serde_json::from_str(r#"{"kind": "jonswap", "hs": 5.0, "tp": 10.0}"#).expect("waves of this test");
+        let waves = |row: usize| 2.0e5 * (0.06 * row as f64).sin() * (1.0 + 0.5 * (0.0071 * row as f64).sin());
+        storm.lines[0].rows.iter_mut().enumerate().for_each(|(number, row)| row.tension += waves(number));
+        let data = json(&storm, storm.force_unit());
+        let value: serde_json::Value = serde_json::from_str(&data.text).expect("JSON");
+        let of = &value["random"][0];
+        let length = |key: &str| of[key].as_array().expect("a list").len();
+        assert!((1..=301).contains(&length("density")) && (1..=400).contains(&length("maxima")), "{of}");
+        assert_eq!(length("maxima"), length("exceedance"));
+        let event = of["event"][1].as_array().expect("tensions");
+        assert!(event.len() <= 301 && event.iter().any(|value| value.as_f64() > Some(9.5e6)), "the worst event: {event:?}");
+        assert!(data.text.len() < 3_100_000, "{} bytes", data.text.len());
     }
 
     #[test]

@@ -1,9 +1,12 @@
 //! What a run remembers: rows at the output times, snapshots of the nodes, counters, warnings. Plain data, no files.
 
+use crate::algebra::sinusoid::Sinusoid;
 use crate::error::Error;
+use crate::report::rainflow::{Curve, Rainflow};
 use crate::report::units::{ForceUnit, sim_time};
-use crate::scene::bodies::{Body, Point};
-use crate::scene::types::{LineType, Scene};
+use crate::scene::bodies::{Body, BodyMotion, Point, PointMotion};
+use crate::scene::types::{LineType, Motion, Scene};
+use crate::sea::drawing;
 use crate::solve::loads::BodyOutputs;
 use crate::solve::simulation::{Counters, NodeOutput, Outputs, StaticsReport};
 use nalgebra::Vector3;
@@ -36,6 +39,8 @@ pub struct Record {
     pub solver_seconds: f64,
     /// The same, added up over the lines [s].
     pub line_seconds: f64,
+    /// Time from which the statistics of a random sea and the damage count [s].
+    pub statistics_from: f64,
     /// Warnings of the scene.
     pub scene_warnings: Vec<String>,
     /// Why the run ended early; `None` after a whole run.
@@ -81,8 +86,25 @@ pub struct LineRecord {
     pub snapshots: Vec<Vec<NodeOutput>>,
     /// Work done by the solver.
     pub counters: Counters,
+    /// Cycles at both ends of every section whose type has a T–N curve.
+    pub fatigue: Vec<SectionEnd>,
     /// Parts of the line with a breaking load, and what they had to bear.
     parts: Vec<Part>,
+}
+
+/// The cycles of the tension at an end of a section, counted row by row.
+#[derive(Debug, Clone)]
+pub struct SectionEnd {
+    /// The section, counted from the fairlead.
+    pub section: usize,
+    /// Its line type.
+    pub line_type: String,
+    /// Where along the line [m from the fairlead].
+    pub s: f64,
+    /// The T–N curve of the type.
+    pub curve: Curve,
+    /// The cycles from `Record::statistics_from` on.
+    pub rainflow: Rainflow,
 }
 
 /// A section that has a breaking load.
@@ -168,6 +190,7 @@ impl Record {
             statics_seconds: 0.0,
             solver_seconds: 0.0,
             line_seconds: 0.0,
+            statistics_from: scene.run.start + transient(scene),
             scene_warnings,
             ended_by: None,
         }
@@ -179,6 +202,9 @@ impl Record {
         for ((line, outputs), nodes) in self.lines.iter_mut().zip(outputs).zip(nodes) {
             line.rows.push(*outputs);
             line.watch_breaking_loads(time, outputs.tension_max, nodes);
+            if time >= self.statistics_from {
+                line.count_cycles(outputs, nodes);
+            }
         }
     }
 
@@ -270,6 +296,7 @@ impl LineRecord {
             rows: Vec::new(),
             snapshots: Vec::new(),
             counters: Counters::default(),
+            fatigue: ends_with_curve(scene, index),
             parts: parts_with_breaking_load(scene, index, &scene.line_types),
         }
     }
@@ -303,12 +330,69 @@ impl LineRecord {
         Statistics::of(self.rows.iter().map(move |row| (row.time, output(row))))
     }
 
+    /// The tension at the fairlead and at the anchor is that of the line's force on what holds it, as in `timeseries.csv`.
+    fn count_cycles(&mut self, outputs: &Outputs, nodes: &[NodeOutput]) {
+        let near = 1.0e-6 * self.length;
+        for end in &mut self.fatigue {
+            let inside = || nodes.get(nodes.partition_point(|node| node.s < end.s - near)).map(|node| node.tension);
+            let tension = match end.s {
+                s if s <= near => Some(outputs.tension),
+                s if s >= self.length - near => Some(outputs.anchor_tension),
+                _ => inside(),
+            };
+            tension.into_iter().for_each(|tension| end.rainflow.push(tension));
+        }
+    }
+
     fn watch_breaking_loads(&mut self, time: f64, tension_max: f64, nodes: &[NodeOutput]) {
         for part in self.parts.iter_mut().filter(|part| tension_max > part.breaking_load) {
             let here = part.from..=part.to;
             nodes.iter().filter(|node| here.contains(&node.s)).for_each(|node| part.bear(time, node));
         }
     }
+}
+
+/// Time for which a run is not yet what it will be [s]: as given, or the longer of the ramps of waves and motion.
+fn transient(scene: &Scene) -> f64 {
+    let waves = drawing::seas(&scene.environment).iter().map(|sea| sea.ramp).fold(0.0, f64::max);
+    let eased = |period: f64, ramp: Option<f64>| Sinusoid::new(period, [0.0; 3], [0.0; 3], ramp).ramp;
+    let motion = match &scene.motion {
+        Motion::Sinusoidal { period, ramp, .. } => eased(*period, *ramp),
+        Motion::Fixed | Motion::File { .. } => 0.0,
+    };
+    let bodies = scene.bodies.iter().map(|body| match &body.motion {
+        BodyMotion::Sinusoidal { period, ramp, .. } => eased(*period, *ramp),
+        _ => 0.0,
+    });
+    let points = scene.points.iter().map(|point| match &point.motion {
+        PointMotion::Sinusoidal { period, ramp, .. } => eased(*period, *ramp),
+        _ => 0.0,
+    });
+    scene.run.transient.unwrap_or(bodies.chain(points).fold(waves.max(motion), f64::max))
+}
+
+/// Both ends of every section whose type has a T–N curve.
+fn ends_with_curve(scene: &Scene, index: usize) -> Vec<SectionEnd> {
+    let mut ends = Vec::new();
+    let mut from = 0.0;
+    for (section, given) in scene.lines[index].sections.iter().enumerate() {
+        let to = from + given.length;
+        if let Some(line_type) = scene.line_types.get(&given.line_type)
+            && let (Some(fatigue), Some(breaking_load)) = (line_type.fatigue, line_type.breaking_load)
+        {
+            let curve = Curve { m: fatigue.m, k: fatigue.k, breaking_load };
+            let line_type = &given.line_type;
+            ends.extend([from, to].map(|s| SectionEnd {
+                section,
+                line_type: line_type.clone(),
+                s,
+                curve,
+                rainflow: Rainflow::default(),
+            }));
+        }
+        from = to;
+    }
+    ends
 }
 
 fn parts_with_breaking_load(scene: &Scene, index: usize, line_types: &BTreeMap<String, LineType>) -> Vec<Part> {

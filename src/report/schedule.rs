@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     fn schedule(duration: f64, output_step: f64) -> Schedule {
-        Schedule::new(&Run { duration, start: 0.0, output_step })
+        Schedule::new(&Run { duration, start: 0.0, output_step, transient: None })
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::report::record::{LineRecord, Record, Statistics};
+use crate::report::statistics::{self, Figures, SectionDamage};
 use crate::scene::types::Scheme;
 use crate::solve::loads::BodyOutputs;
 use crate::solve::simulation::{NodeOutput, Outputs};
@@ -188,6 +189,21 @@ struct LineSummary<'a> {
     anchor_tension: Option<Statistics>,
     /// Unstretched, in contact with the bed [m].
     grounded_length: Option<Statistics>,
+    /// In a random sea.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    statistics: Option<LineStatistics>,
+    /// Where there are T–N curves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fatigue: Vec<SectionDamage>,
+}
+
+/// The tensions of a line in a random sea, in a stretch of time [s].
+#[derive(Serialize)]
+struct LineStatistics {
+    from: f64,
+    to: f64,
+    tension: Figures,
+    anchor_tension: Figures,
 }
 
 #[derive(Serialize)]
@@ -210,7 +226,14 @@ struct Statics {
 
 /// The text of `summary.json`.
 pub fn summary(record: &Record) -> String {
-    let lines: Vec<LineSummary> = record.lines.iter().map(line_summary).collect();
+    let statistics = statistics::of(record);
+    let of_line = |index: usize| {
+        let of = statistics.as_ref()?;
+        let [tension, anchor_tension] = of.lines[index].each_ref().map(|end| end.figures.clone());
+        Some(LineStatistics { from: of.from, to: of.to, tension, anchor_tension })
+    };
+    let lines: Vec<LineSummary> =
+        record.lines.iter().enumerate().map(|(index, line)| line_summary(record, line, of_line(index))).collect();
     let summary = Summary {
         program: concat!("moorline ", env!("CARGO_PKG_VERSION")),
         title: &record.scene.title,
@@ -235,7 +258,7 @@ pub fn summary(record: &Record) -> String {
     serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n"
 }
 
-fn line_summary(line: &LineRecord) -> LineSummary<'_> {
+fn line_summary<'a>(record: &Record, line: &'a LineRecord, statistics: Option<LineStatistics>) -> LineSummary<'a> {
     let statics = |report: crate::solve::simulation::StaticsReport| Statics {
         converged: report.converged,
         iterations: report.iterations,
@@ -248,7 +271,39 @@ fn line_summary(line: &LineRecord) -> LineSummary<'_> {
         tension: line.statistics(|row| row.tension),
         anchor_tension: line.statistics(|row| row.anchor_tension),
         grounded_length: line.statistics(|row| row.grounded_length),
+        statistics,
+        fatigue: statistics::damage(record, line),
     }
+}
+
+/// The text of `spectra.csv`: the spectra of the tensions [N²/Hz] over the frequency [Hz]; `None` where there are none.
+pub fn spectra(record: &Record) -> Option<String> {
+    let statistics = statistics::of(record)?;
+    let spectra: Option<Vec<_>> = statistics.lines.iter().flatten().map(|end| end.spectrum.as_ref()).collect();
+    let spectra = spectra.filter(|spectra| !spectra.is_empty())?;
+    let prefix = |line: &LineRecord| if record.lines.len() == 1 { String::new() } else { format!("{}.", line.name) };
+    let columns = record.lines.iter().flat_map(|line| ["tension", "anchor_tension"].map(|column| prefix(line) + column));
+    let header: Vec<String> = std::iter::once("frequency".to_owned()).chain(columns).collect();
+    let row = |k: usize| -> Vec<String> {
+        let densities = spectra.iter().map(|spectrum| number(spectrum.density[k]));
+        std::iter::once(number(k as f64 * spectra[0].step)).chain(densities).collect()
+    };
+    let rows = (0..spectra[0].density.len()).map(row);
+    String::from_utf8(text(std::iter::once(header).chain(rows))).ok()
+}
+
+/// The text of `rainflow.csv`: the cycles at both ends of every section that has a T–N curve; `None` where there are none.
+pub fn cycles(record: &Record) -> Option<String> {
+    let ends: Vec<_> = record.lines.iter().flat_map(|line| line.fatigue.iter().map(move |end| (line, end))).collect();
+    let header = ["line", "section", "s", "range", "mean", "count"].map(str::to_owned);
+    let rows = ends.iter().flat_map(|(line, end)| {
+        let cycle = |of: crate::report::rainflow::Cycle| {
+            let [s, range, mean, count] = [end.s, of.range, of.mean, of.count].map(number);
+            [line.name.clone(), end.section.to_string(), s, range, mean, count]
+        };
+        end.rainflow.cycles().into_iter().map(cycle)
+    });
+    (!ends.is_empty()).then(|| String::from_utf8(text(std::iter::once(header).chain(rows))).ok())?
 }
 
 fn work(elements: usize, counters: crate::solve::simulation::Counters) -> Work {

@@ -6,8 +6,13 @@
 //!
 //! t unit tangent at the end [-], d the direction of the clamp, R rotation of the body, a the direction in which the line leaves the end in
 //! body axes [-], k rotational stiffness [N·m/rad]. The spring is that of a joint (`joint`) whose other side is the body; a clamp that does not
-//! give way is as much stiffer than the element beside it.
+//! give way is as much stiffer than the element beside it. A free body that turns by δφ feels
+//!
+//! ```text
+//! m = d × ∂E/∂d = -k d × t,   δm = -k [t][d] δφ,   δd = δφ × d
+//! ```
 
+use crate::algebra::rotation;
 use crate::rod::joint;
 use crate::rod::motion::{Motion, Weights};
 use crate::rod::pose::PosePath;
@@ -23,22 +28,54 @@ pub struct Clamp {
     pub stiffness: f64,
     /// Direction of the slope, from the anchor to the fairlead, in body axes [-].
     pub direction: Vector3<f64>,
-    /// The motion of the body.
-    pub body: Arc<PosePath>,
+    /// What it is fast to.
+    pub body: Holder,
+}
+
+/// The body that a clamp is fast to.
+#[derive(Debug, Clone)]
+pub enum Holder {
+    /// One with a given motion.
+    Driven(Arc<PosePath>),
+    /// A free one.
+    Free {
+        /// Its node, whose slope is its rotation vector.
+        node: usize,
+        /// The number of its frame in the state.
+        frame: usize,
+    },
 }
 
 impl Clamp {
-    fn direction_at(&self, time: f64) -> Vector3<f64> {
-        self.body.rotation(time) * self.direction
+    /// d [-].
+    pub fn direction_at(&self, at: &Motion) -> Vector3<f64> {
+        match &self.body {
+            Holder::Driven(path) => path.rotation(at.clock.now) * self.direction,
+            Holder::Free { node, frame } => {
+                let frame = at.frames.get(*frame).copied().unwrap_or_else(Matrix3::identity);
+                rotation::exp(&at.u.slope(*node)) * frame * self.direction
+            }
+        }
     }
 
     /// R on the slope of the end [N·m].
     pub fn moment(&self, at: &Motion) -> Vector3<f64> {
-        joint::moment(self.stiffness, &at.u.slope(self.node), &self.direction_at(at.clock.now))
+        joint::moment(self.stiffness, &at.u.slope(self.node), &self.direction_at(at))
     }
 
     /// c_u ∂R/∂u.
     pub fn tangent(&self, at: &Motion, weights: &Weights) -> Matrix3<f64> {
-        joint::tangent(self.stiffness, &at.u.slope(self.node), &self.direction_at(at.clock.now)).0 * weights.u
+        joint::tangent(self.stiffness, &at.u.slope(self.node), &self.direction_at(at)).0 * weights.u
+    }
+
+    /// ∂²E/∂r'∂d: change of the moment on the slope with the direction [N·m].
+    pub fn crossed(&self, at: &Motion) -> Matrix3<f64> {
+        joint::tangent(self.stiffness, &at.u.slope(self.node), &self.direction_at(at)).1
+    }
+
+    /// m on the body [N·m], and its change with a turn of the body.
+    pub fn on_body(&self, at: &Motion) -> (Vector3<f64>, Matrix3<f64>) {
+        let (t, d) = (at.u.slope(self.node).normalize(), self.direction_at(at));
+        (-d.cross(&t) * self.stiffness, -rotation::cross(&t) * rotation::cross(&d) * self.stiffness)
     }
 }

@@ -8,7 +8,7 @@ use crate::algebra::triple::Triple;
 use crate::rod::awash::Surface;
 use crate::rod::bending::Bending;
 use crate::rod::body::Body;
-use crate::rod::clamp::Clamp;
+use crate::rod::clamp::{Clamp, Holder};
 use crate::rod::element::{self, Table};
 use crate::rod::element_tangent;
 use crate::rod::hold::Hold;
@@ -52,6 +52,8 @@ pub trait Line: System {
     fn end_moment(&self, node: usize, at: &Motion) -> Vector3<f64>;
     /// Lets a clamped end go with the motion of a body.
     fn clamp_to(&mut self, node: usize, body: &Arc<PosePath>);
+    /// Its clamped ends.
+    fn clamps(&self) -> &[Clamp];
     /// Unstretched length of element `e` in contact with the bed [m].
     fn touching_length(&self, u: &Field, e: usize) -> f64;
     /// Unstretched length in contact with the bed [m].
@@ -288,13 +290,19 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
             return Vector3::zeros();
         }
         // What the elements leave at the slope is what the clamp must give, whatever the clamp is at.
-        let (e, end) = if node == 0 { (0, 1) } else { (node - 1, 3) };
+        let begins = node == 0 || self.mesh.gaps.contains(&(node - 1));
+        let (e, end) = if begins { (node, 1) } else { (node - 1, 3) };
         let on_slope = Vector3::from(self.element_forces(at, e)[end]) * self.table.length_of(e);
         -at.u.slope(node).cross(&on_slope)
     }
 
+    fn clamps(&self) -> &[Clamp] {
+        &self.supports.clamps
+    }
+
     fn clamp_to(&mut self, node: usize, body: &Arc<PosePath>) {
-        self.supports.clamps.iter_mut().filter(|clamp| clamp.node == node).for_each(|clamp| clamp.body = Arc::clone(body));
+        let own = self.supports.clamps.iter_mut().filter(|clamp| clamp.node == node);
+        own.for_each(|clamp| clamp.body = Holder::Driven(Arc::clone(body)));
     }
 
     fn lay(&self, u: &Field, holds: &mut Field) {

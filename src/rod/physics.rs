@@ -8,7 +8,7 @@ use crate::algebra::sinusoid::Sinusoid;
 use crate::rod::awash::Surface;
 use crate::rod::bending::{Bending, Flexible, Stiff};
 use crate::rod::body::Body;
-use crate::rod::clamp::Clamp;
+use crate::rod::clamp::{Clamp, Holder};
 use crate::rod::elasticity::{Hooke, Tabulated};
 use crate::rod::friction::Friction;
 use crate::rod::hold::{self, Hold};
@@ -210,7 +210,7 @@ pub fn supports(scene: &Scene, line: &types::Line, mesh: &Mesh) -> Supports {
             node,
             stiffness,
             direction: Vector3::from(clamp.direction).normalize() * sign,
-            body: Arc::new(PosePath::Fixed { position: body.position.into(), angles: body.attitude() }),
+            body: Holder::Driven(Arc::new(PosePath::Fixed { position: body.position.into(), angles: body.attitude() })),
         });
     }
     let released = |node: usize| supports.holds.iter().any(|hold| hold.node == node);

@@ -3,7 +3,7 @@
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::rod::motion::{Motion, Weights};
 use crate::rod::state::{Field, State};
-use nalgebra::Matrix3x6;
+use nalgebra::{Matrix3, Matrix3x6};
 
 /// Nodes of six unknowns each, their residual and its tangent.
 pub trait System: Send + Sync {
@@ -51,8 +51,12 @@ pub trait System: Send + Sync {
     fn error_size(&self, error: &Field) -> f64 {
         error.largest_position(0, error.nodes())
     }
-    /// Displacement of each hanging node per unit of its master's six unknowns.
+    /// Displacement of each hanging node, then turn of each direction to which an end is clamped, per unit of its master's six unknowns.
     fn levers(&self, _: &Motion, _: &mut [Matrix3x6<f64>]) {}
+    /// Change of the moment on the slope of each end that is clamped to a free body with the direction of the clamp [N·m].
+    fn crossed(&self, _: &Motion, _: usize) -> Matrix3<f64> {
+        Matrix3::zeros()
+    }
 }
 
 /// A node whose position is that of a place of a body, or of a point.
@@ -64,7 +68,7 @@ pub struct Link {
     pub master: usize,
     /// The line, as number of its range.
     pub line: usize,
-    /// First (0) or second (1) hanging end of that line.
+    /// Number among all that hangs of that line, ends and directions.
     pub slot: usize,
 }
 
@@ -73,8 +77,17 @@ pub struct Link {
 pub struct Links {
     /// Hanging nodes.
     pub links: Vec<Link>,
+    /// Ends whose direction is clamped to a free body: the node, and the body as master.
+    pub clamped: Vec<Link>,
     /// Nodes of bodies and points.
     pub masters: Vec<usize>,
     /// First node of each line and the one behind its last.
     pub ranges: Vec<(usize, usize)>,
+}
+
+impl Links {
+    /// All that hangs, numbered: ends, then directions.
+    pub fn hanging(&self) -> impl Iterator<Item = (usize, &Link)> {
+        self.links.iter().chain(&self.clamped).enumerate()
+    }
 }

@@ -388,6 +388,29 @@ impl Mount {
 }
 
 impl Body {
+    /// A body that is nothing but a pose, at the origin.
+    pub fn plain(name: &str) -> Body {
+        Body {
+            name: name.to_string(),
+            position: [0.0; 3],
+            attitude_deg: [0.0; 3],
+            motion: BodyMotion::Fixed,
+            mass: 0.0,
+            centre_of_mass: [0.0; 3],
+            inertia: None,
+            cylinders: Vec::new(),
+            volume: 0.0,
+            centre_of_buoyancy: [0.0; 3],
+            added_mass: None,
+            damping: None,
+            quadratic_damping: None,
+            stiffness: None,
+            force: [0.0; 3],
+            moment: [0.0; 3],
+            load: None,
+        }
+    }
+
     /// Roll, pitch and yaw of the pose given [rad].
     pub fn attitude(&self) -> Vector3<f64> {
         Vector3::from(self.attitude_deg).map(f64::to_radians)

@@ -25,7 +25,7 @@ pub use waves::beyond_records;
 type Rule = fn(&Scene, &str) -> Result<(), Error>;
 
 /// All rules, in the order in which a reader would mend: numbers, names, geometry, then what is not there yet.
-const RULES: [Rule; 37] = [
+const RULES: [Rule; 38] = [
     environment::gravity,
     environment::water_density,
     environment::depth,
@@ -37,6 +37,7 @@ const RULES: [Rule; 37] = [
     line_types::line_types_exist,
     line_types::line_type_names,
     line_types::line_type_numbers,
+    line_types::fatigue,
     line_types::tension_tables,
     line_types::inner_fluids,
     line_types::weight_given_once,

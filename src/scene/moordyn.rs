@@ -13,7 +13,9 @@ pub mod to_scene;
 pub mod words;
 pub mod writing;
 
+use crate::algebra::rotation;
 use crate::scene::types::Triple;
+use nalgebra::Vector3;
 use options::Options;
 use outputs::Channel;
 use words::{Attachment, LineEnd};
@@ -109,7 +111,7 @@ pub struct DeckBody {
     pub attachment: Attachment,
     /// Position of the reference point [m].
     pub position: Triple,
-    /// Roll, pitch and yaw [deg].
+    /// Angles about x, y and z [deg], each about the axis that the ones before have turned: R = Rx Ry Rz.
     pub attitude: Triple,
     /// Mass [kg].
     pub mass: f64,
@@ -214,5 +216,38 @@ impl DeckRod {
     /// Whether it has no length.
     pub fn is_point(&self) -> bool {
         self.segments == 0 || self.a == self.b
+    }
+}
+
+/// Roll, pitch and yaw of a scene [deg], R = Rz Ry Rx, of the angles of a file. Of one angle alone both are the same.
+pub fn scene_attitude(angles: Triple) -> Triple {
+    turned(angles, |radians| rotation::angles(&rotation::of_angles_xyz(radians)))
+}
+
+/// The angles of a file [deg] of roll, pitch and yaw of a scene.
+pub fn deck_attitude(angles: Triple) -> Triple {
+    turned(angles, |radians| rotation::angles_xyz(&rotation::of_angles(radians)))
+}
+
+fn turned(angles: Triple, by: impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Triple {
+    if angles.iter().filter(|angle| **angle != 0.0).count() < 2 {
+        return angles;
+    }
+    by(&Vector3::from(angles).map(f64::to_radians)).map(f64::to_degrees).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A quarter turn about x takes y to z, and the next about z, which is now where -y was, takes x there: R = Rx Rz. Roll, pitch and yaw of the same.
+    #[test]
+    fn angles_of_a_file_turn_about_turned_axes() {
+        let r = rotation::of_angles(&Vector3::from(scene_attitude([90.0, 0.0, 30.0])).map(f64::to_radians));
+        let (sine, cosine) = 30.0_f64.to_radians().sin_cos();
+        assert!((r * Vector3::x() - Vector3::new(cosine, 0.0, sine)).norm() < 1e-12, "{r}");
+        assert_eq!(scene_attitude([0.0, 12.3, 0.0]), [0.0, 12.3, 0.0]);
+        let back = deck_attitude(scene_attitude([20.0, -35.0, 70.0]));
+        assert!(back.iter().zip([20.0, -35.0, 70.0]).all(|(found, wanted)| (found - wanted).abs() < 1e-9), "{back:?}");
     }
 }

@@ -17,7 +17,7 @@ mod waves;
 use crate::scene::bodies::{Body, Point};
 pub use environment::{CurrentOverTime, CurrentPoint, Environment, Seabed, Surface};
 pub use line::{Line, SAME_PLACE, Section};
-pub use line_type::{InnerFluid, LineType, NormalTangential};
+pub use line_type::{Fatigue, InnerFluid, LineType, NormalTangential};
 pub use motion::Motion;
 pub use point::{Attachment, Constraint, ReferenceMotion};
 pub use run::Run;

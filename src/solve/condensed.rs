@@ -6,7 +6,8 @@
 //!
 //! y unknowns of bodies and points (masters), x_e positions of the ends that hang on them, x_f all else of the lines, B levers. With the
 //! ends fixed the lines do not know of each other, so that A_ff is block-tridiagonal in one piece, and the columns A_ff⁻¹ A_fe of all lines
-//! are solved for at once: three for their first hanging ends, three for their second.
+//! are solved for at once: three for their first hanging ends, three for their second. The direction of a clamp on a body hangs on it as an end
+//! does: it moves nothing but the slope that is clamped to it.
 
 use crate::algebra::block_tridiagonal::{Block, BlockTridiagonal, Factor, Singular};
 use crate::rod::motion::Motion;
@@ -33,7 +34,7 @@ pub struct Condensed {
     factor: Factor<COMPONENTS>,
     couplings: Vec<Coupling>,
     levers: Vec<Matrix3x6<f64>>,
-    /// A_ff⁻¹ A_fe, a column each: components of the first hanging end of every line, then of the second.
+    /// A_ff⁻¹ A_fe, a column each: components of the first that hangs of every line, then of the second, and so on.
     columns: Vec<Field>,
     condensed: DMatrix<f64>,
     solver: Option<LU<f64, Dyn, Dyn>>,
@@ -42,13 +43,14 @@ pub struct Condensed {
 impl Condensed {
     /// Room for the factor of a network of so many nodes.
     pub fn new(nodes: usize, links: &Links) -> Condensed {
-        let slots = links.links.iter().map(|link| link.slot + 1).max().unwrap_or(0);
+        let hanging = links.links.len() + links.clamped.len();
+        let slots = links.links.iter().chain(&links.clamped).map(|link| link.slot + 1).max().unwrap_or(0);
         let size = COMPONENTS * links.masters.len();
         Condensed {
             links: links.clone(),
             factor: Factor::new(nodes, std::array::from_fn(|c| c)),
-            couplings: vec![Coupling::default(); links.links.len()],
-            levers: vec![Matrix3x6::zeros(); links.links.len()],
+            couplings: vec![Coupling::default(); hanging],
+            levers: vec![Matrix3x6::zeros(); hanging],
             columns: vec![Field::new(nodes); 3 * slots],
             condensed: DMatrix::zeros(size, size),
             solver: None,
@@ -86,14 +88,15 @@ impl Condensed {
         fine
     }
 
-    /// Factors the matrix of a motion, of which prescribed unknowns have been taken out.
+    /// Factors the matrix of a motion, of which prescribed unknowns have been taken out; `weight`: that of ∂R/∂u in it.
     pub fn factor(
         &mut self,
         system: &dyn System,
         at: &Motion,
+        weight: f64,
         matrix: &mut BlockTridiagonal<COMPONENTS>,
     ) -> Result<(), Singular> {
-        self.condense(system, at, matrix)?;
+        self.condense(system, at, weight, matrix)?;
         let fine = self.stiffen(&DVector::zeros(self.condensed.nrows()));
         if fine { Ok(()) } else { Err(Singular { index: self.links.masters.first().copied().unwrap_or(0) }) }
     }
@@ -103,6 +106,7 @@ impl Condensed {
         &mut self,
         system: &dyn System,
         at: &Motion,
+        weight: f64,
         matrix: &mut BlockTridiagonal<COMPONENTS>,
     ) -> Result<(), Singular> {
         system.levers(at, &mut self.levers);
@@ -137,6 +141,19 @@ impl Condensed {
                 add(&mut self.columns, node + 1, matrix.lower[node].fixed_columns::<3>(0).into(), 0);
             }
         }
+        for (number, link) in self.links.clamped.iter().enumerate() {
+            let crossed = system.crossed(at, number) * weight;
+            let coupling = &mut self.couplings[self.links.links.len() + number];
+            coupling.own.fill(0.0);
+            let mut row = Row::zeros();
+            row.fixed_columns_mut::<3>(3).copy_from(&crossed.transpose());
+            coupling.row.clear();
+            coupling.row.push((link.node, row));
+            for c in 0..3 {
+                let column = &mut self.columns[3 * link.slot + c];
+                (0..3).for_each(|r| column.component_mut(3 + r)[link.node] += crossed[(r, c)]);
+            }
+        }
         for link in &self.links.links {
             (0..3).for_each(|component| matrix.fix(link.node, component));
         }
@@ -153,11 +170,12 @@ impl Condensed {
             let stride = column.stride();
             self.factor.solve(column.data_mut(), stride);
         }
-        for (one, link) in self.links.links.iter().enumerate() {
-            for (other, beside) in self.links.links.iter().enumerate().filter(|(_, beside)| beside.line == link.line) {
+        let ends = self.links.links.len();
+        for (one, link) in self.links.hanging() {
+            for (other, beside) in self.links.hanging().filter(|(_, beside)| beside.line == link.line) {
                 let mut block = if one == other { self.couplings[one].own } else { nalgebra::Matrix3::zeros() };
                 for (node, row) in &self.couplings[one].row {
-                    if *node == beside.node && one != other {
+                    if *node == beside.node && one != other && other < ends {
                         block += row.fixed_columns::<3>(0);
                     }
                     for c in 0..3 {
@@ -199,7 +217,7 @@ impl Condensed {
         }
         let stride = b.stride();
         self.factor.solve(b.data_mut(), stride);
-        for (number, link) in self.links.links.iter().enumerate() {
+        for (number, link) in self.links.hanging() {
             let mut force = Vector3::zeros();
             for (node, row) in &self.couplings[number].row {
                 force += row * Vector6::from_fn(|r, _| b.component(r)[*node]);
@@ -207,10 +225,11 @@ impl Condensed {
             let mut part = right.fixed_rows_mut::<6>(6 * link.master);
             part -= self.levers[number].tr_mul(&force);
         }
-        if let Some(solver) = &self.solver {
+        // Lines that are clamped to what is driven have no masters.
+        if let Some(solver) = self.solver.as_ref().filter(|_| !right.is_empty()) {
             solver.solve_mut(&mut right);
         }
-        for (number, link) in self.links.links.iter().enumerate() {
+        for (number, link) in self.links.hanging() {
             let moved: Vector3<f64> = self.levers[number] * right.fixed_rows::<6>(6 * link.master);
             let (first, end) = self.links.ranges[link.line];
             for c in 0..3 {

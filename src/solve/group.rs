@@ -1,7 +1,7 @@
 //! Lines that hang on free bodies and points, through statics and time together: one step for all, so that what joins them is solved for with them.
 
 use crate::error::{Adrift, Error, Trouble};
-use crate::rod::clamp::Clamp;
+use crate::rod::clamp::{Clamp, Holder};
 use crate::rod::cylinder::{Load, Surround};
 use crate::rod::line::Supports;
 use crate::rod::mesh::Mesh;
@@ -17,6 +17,7 @@ use crate::scene::types::{Attachment, Scene, Surface};
 use crate::sea::clock::Clock;
 use crate::sea::current::Current;
 use crate::sea::waves::Waves;
+use crate::solve::between::Place;
 use crate::solve::controller::{self, Controller, Demands, Failure};
 use crate::solve::motion::{Ends, Path};
 use crate::solve::network::Network;
@@ -155,6 +156,11 @@ impl Group {
                         links.links.push(Link { node, master, line: local, slot });
                         arms.push(if let Mount::Body { at, .. } = on { Some(Vector3::from(*at)) } else { None });
                         slot += 1;
+                        if let Some(clamp) = supports.clamps.iter_mut().find(|clamp| clamp.node == node) {
+                            clamp.body = Holder::Free { node: masters[master], frame: master };
+                            links.clamped.push(Link { node, master, line: local, slot });
+                            slot += 1;
+                        }
                     }
                     None if supports.fixed.contains(&(node, 0)) => driven.push((node, path.clone())),
                     None => {}
@@ -360,15 +366,20 @@ impl Group {
             return self.controller.advance(&mut bench, &demands, &mut self.moment, until, |_, _| {});
         }
         let (mut room, works) = (Field::new(network.nodes()), &mut self.works);
-        let mut ends = |moment: &Moment| -> Vec<(Vector3<f64>, Vector3<f64>)> {
-            network.rod.residual(&crate::solve::newton::motion(&moment.state), &mut room);
-            network.driven.iter().map(|(node, _)| (-room.position(*node), moment.state.u.position(*node))).collect()
+        // Force on what drives each end, place, and the power of the moment where the end is clamped.
+        let mut ends = |moment: &Moment| -> Vec<(Vector3<f64>, Vector3<f64>, f64)> {
+            let at = crate::solve::newton::motion(&moment.state);
+            network.rod.residual(&at, &mut room);
+            let end = |(node, path): &(usize, Path)| {
+                (-room.position(*node), moment.state.u.position(*node), network.clamp_power(*node, path, &at))
+            };
+            network.driven.iter().map(end).collect()
         };
         let mut before = ends(&self.moment);
-        self.controller.advance(&mut bench, &demands, &mut self.moment, until, |moment, _| {
+        self.controller.advance(&mut bench, &demands, &mut self.moment, until, |moment, leg| {
             let now = ends(moment);
             for ((work, before), now) in works.iter_mut().zip(&before).zip(&now) {
-                *work += 0.5 * (before.0 + now.0).dot(&(now.1 - before.1));
+                *work += 0.5 * ((before.0 + now.0).dot(&(now.1 - before.1)) + (before.2 + now.2) * leg.h);
             }
             before = now;
         })
@@ -524,6 +535,11 @@ impl Group {
     /// Nodes of one of its lines now, from the fairlead.
     pub fn nodes(&mut self, local: usize) -> Vec<NodeOutput> {
         self.shown(local).nodes()
+    }
+
+    /// What one of its lines is like now at arc lengths from its fairlead [m].
+    pub fn places(&mut self, local: usize, at: &[f64]) -> Vec<Place> {
+        self.shown(local).places(at)
     }
 
     /// One of its lines, to be asked about mesh and physics.

@@ -57,11 +57,7 @@ pub fn on(reference: &Vector3<f64>, ends: &[(usize, bool)], outputs: &[Outputs])
     let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
     for (line, anchor) in ends {
         let Some(outputs) = outputs.get(*line) else { continue };
-        let (place, pull, own) = if *anchor {
-            (outputs.anchor, outputs.anchor_force, outputs.anchor_moment)
-        } else {
-            (outputs.fairlead, outputs.force, outputs.moment)
-        };
+        let (place, pull, own) = outputs.of_end(*anchor);
         force += pull;
         moment += (place - reference).cross(&pull) + own;
     }

@@ -95,6 +95,11 @@ impl Mixed {
         shortest_step(self.line.damping())
     }
 
+    /// Force that the fairlead side exerts on the anchor side at every node now [N].
+    pub fn node_forces(&self, state: &State) -> Vec<Vector3<f64>> {
+        self.forces(state, &self.line.tensions.now)
+    }
+
     fn forces(&self, state: &State, tensions: &[f64]) -> Vec<Vector3<f64>> {
         (0..self.line.nodes()).map(|node| self.line.node_force(&state.u, tensions, node)).collect()
     }

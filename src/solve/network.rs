@@ -10,13 +10,14 @@
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::rotation;
+use crate::rod::clamp::Clamp;
 use crate::rod::line::Line;
 use crate::rod::motion::{Motion, Weights};
 use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::{Links, System};
 use crate::solve::motion::Path;
-use nalgebra::{Matrix3x6, Vector3};
+use nalgebra::{Matrix3, Matrix3x6, Vector3};
 use std::ops::AddAssign;
 use std::sync::Mutex;
 
@@ -85,6 +86,23 @@ impl Network {
         }
     }
 
+    /// Power of the moment on the body that drives an end, where that is clamped to it [W].
+    pub fn clamp_power(&self, node: usize, path: &Path, at: &Motion) -> f64 {
+        let Path::OnBody { body, .. } = path else { return 0.0 };
+        if !self.rod.clamps().iter().any(|clamp| clamp.node == node) {
+            return 0.0;
+        }
+        self.rod.end_moment(node, at).dot(&body.at(at.clock.now).omega)
+    }
+
+    /// The clamps on free bodies, in the order of `Links::clamped`, and these.
+    fn clamps(&self) -> impl Iterator<Item = (&Clamp, &Rigid)> {
+        self.links.clamped.iter().filter_map(|link| {
+            let clamp = self.rod.clamps().iter().find(|clamp| clamp.node == link.node)?;
+            Some((clamp, self.bodies.get(link.master)?))
+        })
+    }
+
     fn body_at(&self, node: usize) -> Option<&Rigid> {
         self.bodies.iter().find(|body| body.node == node)
     }
@@ -143,6 +161,10 @@ impl System for Network {
             out.set_position(body.node, &force);
             out.set_slope(body.node, &moment);
         }
+        for (clamp, body) in self.clamps() {
+            let (moment, _) = clamp.on_body(at);
+            out.set_slope(body.node, &(out.slope(body.node) + rotation::jacobian(&at.u.slope(body.node)).tr_mul(&moment)));
+        }
         for (node, force) in &self.pulls {
             out.set_position(*node, &(out.position(*node) - force));
         }
@@ -163,6 +185,11 @@ impl System for Network {
             let (Some(arm), Some(body)) = (arm, self.body_at(self.links.masters[link.master])) else { continue };
             let lever = body.motion(at).rotation * arm;
             let turned = rotation::cross(&room.position(link.node)) * rotation::cross(&lever) * weights.u;
+            matrix.diagonal[body.node].fixed_view_mut::<3, 3>(3, 3).add_assign(turned);
+        }
+        for (clamp, body) in self.clamps() {
+            let jacobian = rotation::jacobian(&at.u.slope(body.node));
+            let turned = jacobian.tr_mul(&(clamp.on_body(at).1 * jacobian)) * weights.u;
             matrix.diagonal[body.node].fixed_view_mut::<3, 3>(3, 3).add_assign(turned);
         }
     }
@@ -253,12 +280,22 @@ impl System for Network {
     }
 
     fn levers(&self, at: &Motion, out: &mut [Matrix3x6<f64>]) {
-        out.iter_mut().enumerate().for_each(|(number, lever)| *lever = self.lever(number, at));
+        let (ends, directions) = out.split_at_mut(self.links.links.len());
+        ends.iter_mut().enumerate().for_each(|(number, lever)| *lever = self.lever(number, at));
+        for (lever, (clamp, body)) in directions.iter_mut().zip(self.clamps()) {
+            lever.fill(0.0);
+            let by_turn = -rotation::cross(&clamp.direction_at(at)) * rotation::jacobian(&at.u.slope(body.node));
+            lever.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_turn);
+        }
+    }
+
+    fn crossed(&self, at: &Motion, number: usize) -> Matrix3<f64> {
+        self.clamps().nth(number).map_or_else(Matrix3::zeros, |(clamp, _)| clamp.crossed(at))
     }
 }
 
 /// The rotation nearest to a matrix that is nearly one.
-fn orthonormal(r: &nalgebra::Matrix3<f64>) -> nalgebra::Matrix3<f64> {
+fn orthonormal(r: &Matrix3<f64>) -> Matrix3<f64> {
     // One step of Newton's method for the polar factor: what is off by ε is off by ε² after it.
     r * 1.5 - r * r.tr_mul(r) * 0.5
 }

@@ -145,7 +145,7 @@ impl Newton {
             line.tangent(&motion(&origin.state), &origin.weights, None, &mut self.matrix);
             self.effort.factorisations += 1;
             self.unknowns
-                .factor(line, &motion(&origin.state), &mut self.matrix)
+                .factor(line, &motion(&origin.state), origin.weights.u, &mut self.matrix)
                 .map_err(|Singular { index }| Stall::Singular { node: index })?;
             self.at_hand = true;
         }
@@ -178,7 +178,9 @@ impl Newton {
         self.shelf.put(left);
         line.tangent(at, weights, geometric, &mut self.matrix);
         self.effort.factorisations += 1;
-        self.unknowns.factor(line, at, &mut self.matrix).map_err(|Singular { index }| Stall::Singular { node: index })?;
+        self.unknowns
+            .factor(line, at, weights.u, &mut self.matrix)
+            .map_err(|Singular { index }| Stall::Singular { node: index })?;
         if geometric.is_none() {
             self.memory.origin = Some(self.shelf.origin(at, weights));
             self.at_hand = true;

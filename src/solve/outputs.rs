@@ -39,6 +39,13 @@ pub struct Outputs {
     pub work: f64,
 }
 
+impl Outputs {
+    /// Place of an end [m], force on what holds it [N], and the moment on that [N·m].
+    pub fn of_end(&self, anchor: bool) -> (Vector3<f64>, Vector3<f64>, Vector3<f64>) {
+        if anchor { (self.anchor, self.anchor_force, self.anchor_moment) } else { (self.fairlead, self.force, self.moment) }
+    }
+}
+
 /// A node of the line, counted from the fairlead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NodeOutput {

@@ -1,6 +1,7 @@
 //! The facade: one mooring line through statics and time. The command, the report and the FMU see nothing else of the solver.
 
 use crate::cable1994::line::Tensions;
+use crate::rod::clamp::Holder;
 use crate::rod::line::{Line, Supports};
 pub use crate::rod::physics::Decision;
 use crate::rod::physics::Surroundings;
@@ -74,7 +75,8 @@ impl Simulation {
     /// Lets the end at a node, if it is clamped, go with a body.
     pub(in crate::solve) fn clamp_to(&mut self, node: usize, body: &Arc<PosePath>) {
         self.line.clamp_to(node, body);
-        self.supports.clamps.iter_mut().filter(|clamp| clamp.node == node).for_each(|clamp| clamp.body = Arc::clone(body));
+        let own = self.supports.clamps.iter_mut().filter(|clamp| clamp.node == node);
+        own.for_each(|clamp| clamp.body = Holder::Driven(Arc::clone(body)));
     }
 
     /// The discrete line.

@@ -45,7 +45,8 @@ impl LinearStage {
         };
         let mut whole = matrix(stage.weights.u, stage.weights.v, stage.weights.a);
         let mut unknowns = Unknowns::new(line);
-        unknowns.factor(line, &motion(&stage.state), &mut whole).map_err(|singular| Stall::Singular { node: singular.index })?;
+        let factored = unknowns.factor(line, &motion(&stage.state), stage.weights.u, &mut whole);
+        factored.map_err(|singular| Stall::Singular { node: singular.index })?;
         Ok(LinearStage {
             weights: stage.weights,
             by_position: matrix(1.0, 0.0, 0.0),

@@ -32,15 +32,21 @@ impl Unknowns {
         }
     }
 
-    /// Factors the matrix of a motion; prescribed unknowns are taken out of it.
-    pub fn factor(&mut self, line: &dyn System, at: &Motion, matrix: &mut BlockTridiagonal<COMPONENTS>) -> Result<(), Singular> {
+    /// Factors the matrix of a motion; prescribed unknowns are taken out of it. `weight`: that of ∂R/∂u in it.
+    pub fn factor(
+        &mut self,
+        line: &dyn System,
+        at: &Motion,
+        weight: f64,
+        matrix: &mut BlockTridiagonal<COMPONENTS>,
+    ) -> Result<(), Singular> {
         for &(node, component) in line.fixed() {
             matrix.fix(node, component);
         }
         match self {
             Unknowns::Spatial(factor) => factor.factor(matrix),
             Unknowns::Planar(factor) => factor.factor(matrix),
-            Unknowns::Network(factor) => factor.factor(line, at, matrix),
+            Unknowns::Network(factor) => factor.factor(line, at, weight, matrix),
         }
     }
 

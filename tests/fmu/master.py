@@ -110,6 +110,14 @@ class Line:
         references = self.references(unknowns), c.c_size_t(len(unknowns)), self.references([known]), c.c_size_t(1)
         return self.call("fmi2GetDirectionalDerivative", *references, (c.c_double * 1)(seed), changes), list(changes)
 
+    def rates(self, outputs: list[str]) -> list[float]:
+        """First derivatives of outputs in time."""
+        count, found = len(outputs), (c.c_double * len(outputs))()
+        orders = (c.c_int * count)(*[1] * count)
+        status = self.call("fmi2GetRealOutputDerivatives", self.references(outputs), c.c_size_t(count), orders, found)
+        assert status == OK, self.log
+        return list(found)
+
     def outputs(self) -> list[float]:
         status, values = self.get_real(*self.fmu.outputs)
         assert status == OK, self.log

@@ -92,8 +92,10 @@ fn fairlead_variation(end: &End, line: &BuiltLine, cutoff: f64, direction: [[f64
     Some(end.path.variation(plan, inputs, direction))
 }
 
-/// Displacement, and share of a weight, by which a group is moved to and fro to differentiate its steps.
+/// Displacement [m] by which a group is moved to and fro to differentiate its steps,
 const SHARE: f64 = 1.0e-2;
+/// and at most to differentiate equilibria, as a share of its shortest line: a short one is stiff.
+const SLIGHT: f64 = 1.0e-5;
 /// Force that counts as a displacement of one metre [N].
 const FORCE: f64 = 1.0e5;
 
@@ -122,13 +124,22 @@ impl Built {
         let Built { lines, groups, vessels, conventions, filter, .. } = self;
         let group = &mut groups[number];
         let members: Vec<usize> = group.together().lines.clone();
+        // An equilibrium is found more closely than a step is solved.
+        let (most, least_arm) = match when {
+            When::Step(_) => (SHARE, 0.0),
+            When::Rest(_) => {
+                let shortest = members.iter().map(|index| lines[*index].limits.length).fold(f64::INFINITY, f64::min);
+                // Turning a clamp bends the line at once.
+                (SHARE.min(SLIGHT * shortest), if group.together().clamped { shortest } else { 0.0 })
+            }
+        };
         let mut size = f64::MIN_POSITIVE;
         for index in &members {
             directions.lines[*index].iter().flatten().for_each(|x| size = size.max(x.abs()));
         }
         for (of, vessel) in directions.bodies.iter().zip(vessels.iter()) {
             for (part, values) in of.iter().enumerate() {
-                let scale = if part % 2 == 1 { vessel.arm } else { 1.0 };
+                let scale = if part % 2 == 1 { vessel.arm.max(least_arm) } else { 1.0 };
                 values.iter().for_each(|x| size = size.max(x.abs() * scale));
             }
         }
@@ -179,9 +190,10 @@ impl Built {
                 }
             }
         };
+        let share = most / size;
         match when {
-            When::Step(until) => group.derivative(until, SHARE / size, drive),
-            When::Rest(time) => group.static_derivative(time, SHARE / size, drive),
+            When::Step(until) => group.derivative(until, share, drive),
+            When::Rest(time) => group.static_derivative(time, share, drive),
         }
     }
 }
@@ -268,13 +280,11 @@ impl Instance {
         let (mut force, mut moment, mut work) = (Vector3::zeros(), Vector3::zeros(), 0.0);
         for (line, anchor) in built.vessels[body].hung.clone() {
             let (now, rate) = (self.moment.ends[line].outputs, built.output_rates(line));
-            let of_end = |outputs: &Outputs| {
-                if anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) }
-            };
-            let ((place, pull), (velocity, change)) = (of_end(&now), of_end(&rate));
+            let ((place, pull, own), (velocity, change, own_change)) = (now.of_end(anchor), rate.of_end(anchor));
             force += change;
-            moment += (velocity - motion.reference.velocity).cross(&pull) + (place - reached.position).cross(&change);
-            work += pull.dot(&velocity);
+            moment +=
+                (velocity - motion.reference.velocity).cross(&pull) + (place - reached.position).cross(&change) + own_change;
+            work += pull.dot(&velocity) + own.dot(&motion.omega);
         }
         let turn = motion.rotation;
         let along = |rate: Vector3<f64>, of: Vector3<f64>, body: bool| {
@@ -309,16 +319,13 @@ impl Instance {
         let (mut whole, mut torque) = (Vector3::zeros(), Vector3::zeros());
         for (line, anchor) in &built.vessels[body].hung {
             let now = changes.outputs[*line].unwrap_or(self.moment.ends[*line].outputs);
-            let (place, pull) = if *anchor { (now.anchor, now.anchor_force) } else { (now.fairlead, now.force) };
+            let (place, pull, own) = now.of_end(*anchor);
             whole += pull;
-            torque += (place - position).cross(&pull);
+            torque += (place - position).cross(&pull) + own;
             let Some(change) = &changes.lines[*line] else { continue };
-            let of_end = |outputs: &Outputs| {
-                if *anchor { (outputs.anchor, outputs.anchor_force) } else { (outputs.fairlead, outputs.force) }
-            };
-            let ((place, pull), (moved, changed)) = (of_end(&now), of_end(change));
+            let (moved, changed, own_changed) = change.of_end(*anchor);
             force += changed;
-            moment += (moved - of[0]).cross(&pull) + (place - position).cross(&changed);
+            moment += (moved - of[0]).cross(&pull) + (place - position).cross(&changed) + own_changed;
             work += if *anchor { 0.0 } else { change.work };
         }
         let turn = rotation::of_angles(&angles);

@@ -13,6 +13,7 @@ use crate::rod::pose::PosePath;
 use crate::scene::bodies::Mount;
 use crate::scene::read::Loaded;
 use crate::scene::types::Scene;
+use crate::solve::between::Place;
 use crate::solve::group::{EndOf, Group};
 use crate::solve::loads;
 use crate::solve::motion::{Ends, Path};
@@ -149,10 +150,17 @@ impl Built {
         ends
     }
 
-    /// Puts everything in equilibrium at a time.
-    pub fn settle(&mut self, time: f64, said: &[Said]) -> Result<Vec<StaticsReport>, Error> {
+    /// Puts everything in equilibrium at a time; or, with what is free where a scene has it, to be let go there, the lines alone.
+    pub fn settle(&mut self, time: f64, said: &[Said], held: Option<&Scene>) -> Result<Vec<StaticsReport>, Error> {
         self.apply(said);
-        let of_groups = self.groups.iter_mut().map(|group| group.settle(time)).collect::<Result<Vec<_>, Error>>()?;
+        let of_groups = self
+            .groups
+            .iter_mut()
+            .map(|group| match held {
+                Some(scene) => group.hold(time, scene),
+                None => group.settle(time),
+            })
+            .collect::<Result<Vec<_>, Error>>()?;
         let line = |line: &mut BuiltLine| match &mut line.what {
             What::Own(simulation) => {
                 simulation.settle_between(line.ends.fairlead.at(time).position, line.ends.anchor.at(time).position, time)
@@ -241,6 +249,14 @@ impl Built {
             // Its work is among its outputs.
             What::Own(simulation) => simulation.observe(),
             What::Member { group, local } => Outputs { work, ..self.groups[*group].outputs(*local) },
+        }
+    }
+
+    /// What a line is like now at arc lengths from its fairlead [m].
+    pub fn places(&mut self, index: usize, at: &[f64]) -> Vec<Place> {
+        match &mut self.lines[index].what {
+            What::Own(simulation) => simulation.places(at),
+            What::Member { group, local } => self.groups[*group].places(*local, at),
         }
     }
 

@@ -31,6 +31,7 @@ function drawAlong() {
 function drawAll() {
   drawHistory();
   drawAlong();
+  drawRandom();
   if (shapes) shapes.layout();
   setTime(state.time);
 }

@@ -355,6 +355,7 @@ impl Losses {
                 format!("{}: the fluid inside has the pressure of the water outside", at("inner_fluid.pressure"))
             });
             self.add(of.breaking_load.is_some(), || format!("{}: it is left out", at("breaking_load")));
+            self.add(of.fatigue.is_some(), || format!("{}: it is left out", at("fatigue")));
             for (key, own, other) in [
                 ("drag.normal", of.drag.normal, first.map(|first| first.drag.normal)),
                 ("added_mass.normal", of.added_mass.normal, first.map(|first| first.added_mass.normal)),

@@ -173,6 +173,7 @@ fn line_type(deck: &Deck, of: &ElementType, seabed_stiffness: Option<f64>) -> Li
         damping: deck.damping,
         tension_strain: None,
         breaking_load: None,
+        fatigue: None,
         inner_fluid: (cavity > 0.0).then_some(InnerFluid { density: deck.inner_density, area: cavity, pressure: 0.0 }),
         outer_area: Some(area),
         seabed_stiffness,
@@ -207,8 +208,8 @@ fn environment(deck: &Deck, stiffness: Option<f64>) -> Environment {
 fn run(deck: &Deck) -> Run {
     let step = if deck.step > 0.0 { deck.step } else { Run::default().output_step };
     match deck.job {
-        Job::Statics => Run { duration: 0.0, start: 0.0, output_step: step },
-        Job::Dynamics => Run { duration: deck.end - deck.begin, start: deck.begin, output_step: step },
+        Job::Statics => Run { duration: 0.0, start: 0.0, output_step: step, transient: None },
+        Job::Dynamics => Run { duration: deck.end - deck.begin, start: deck.begin, output_step: step, transient: None },
     }
 }
 

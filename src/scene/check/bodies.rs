@@ -237,7 +237,7 @@ pub(super) fn ends(scene: &Scene, file: &str) -> Result<(), Error> {
                 Mount::Point { .. } => ("point", scene.points.iter().map(|point| point.name.clone()).collect()),
             };
             if let Some(clamp) = on.clamp() {
-                clamped(scene, index, on, clamp, &place, file)?;
+                clamped(scene, index, clamp, &place, file)?;
             }
             let name = on.name().to_owned();
             if !known.contains(&name) {
@@ -277,18 +277,14 @@ pub(super) fn ends(scene: &Scene, file: &str) -> Result<(), Error> {
     Ok(())
 }
 
-/// An end can be clamped to what is driven, and only if the line bends.
-fn clamped(scene: &Scene, index: usize, on: &Mount, clamp: &Clamp, place: &str, file: &str) -> Result<(), Error> {
+/// An end can be clamped to a body, and only if the line bends.
+fn clamped(scene: &Scene, index: usize, clamp: &Clamp, place: &str, file: &str) -> Result<(), Error> {
     finite(file, &format!("{place}.direction"), &clamp.direction)?;
     if !(clamp.direction.iter().map(|x| x * x).sum::<f64>() > 0.0) {
         return refuse(file, format!("{place}.direction"), triple(clamp.direction), "it is a direction: not all may be 0");
     }
     if let Stiffness::Of(stiffness) = clamp.stiffness {
         positive(file, &format!("{place}.stiffness"), stiffness, "N·m/rad, or \"clamped\"")?;
-    }
-    if scene.is_on_free(Some(on)) {
-        let allowed = "an end is clamped to a fixed or driven body only; pin it to a free one, or drive the body";
-        return refuse(file, format!("{place}.direction"), format!("a clamp on {:?}", on.name()), allowed);
     }
     let line = &scene.lines[index];
     let section = if place.ends_with("anchor") { line.sections.last() } else { line.sections.first() };

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::scene::check::finding::{finite, in_type, not_negative, number, positive, refuse, sections};
-use crate::scene::types::{NormalTangential, Scene};
+use crate::scene::types::{Fatigue, NormalTangential, Scene};
 
 pub fn line_types_exist(scene: &Scene, file: &str) -> Result<(), Error> {
     if scene.line_types.is_empty() {
@@ -44,6 +44,31 @@ pub fn line_type_numbers(scene: &Scene, file: &str) -> Result<(), Error> {
         }
         if let Some(load) = line_type.breaking_load {
             positive(file, &at("breaking_load"), load, "N")?;
+        }
+    }
+    Ok(())
+}
+
+/// Exponents and constants of T–N curves of ropes and chains in use, generously; a constant that goes with stress in MPa is far above.
+const EXPONENTS: std::ops::RangeInclusive<f64> = 1.0..=20.0;
+const CONSTANTS: std::ops::RangeInclusive<f64> = 1.0e-3..=1.0e7;
+
+/// A T–N curve has an exponent and a constant of its kind, and a breaking load that ranges are measured by.
+pub fn fatigue(scene: &Scene, file: &str) -> Result<(), Error> {
+    for (name, line_type) in &scene.line_types {
+        let Some(Fatigue { m, k }) = line_type.fatigue else { continue };
+        if !EXPONENTS.contains(&m) {
+            let allowed = "it must lie between 1 and 20; 3 is usual for chain, 4 to 5 for wire rope, 9 to 14 for polyester";
+            return refuse(file, in_type(name, "fatigue.m"), number(m), allowed);
+        }
+        if !CONSTANTS.contains(&k) {
+            let allowed = "it must lie between 0.001 and 1e7: N = k·R^-m, R being range over breaking load; of a stress curve \
+                           N = a·S^-m, k = a·(area / breaking load)^m";
+            return refuse(file, in_type(name, "fatigue.k"), number(k), allowed);
+        }
+        if line_type.breaking_load.is_none() {
+            let allowed = "`fatigue` measures ranges by the breaking load: give it [N], or leave `fatigue` out";
+            return refuse(file, in_type(name, "breaking_load"), "nothing", allowed);
         }
     }
     Ok(())

@@ -12,6 +12,14 @@ pub fn run(scene: &Scene, file: &str) -> Result<(), Error> {
     not_negative(file, "run.duration", run.duration, "s")?;
     finite(file, "run.start", &[run.start])?;
     positive(file, "run.output_step", run.output_step, "s")?;
+    if let Some(transient) = run.transient {
+        not_negative(file, "run.transient", transient, "s")?;
+        if !(transient < run.duration) {
+            let allowed =
+                format!("it must be less than run.duration, {} s, or no time is left for statistics", number(run.duration));
+            return refuse(file, "run.transient", format!("{} s", number(transient)), allowed);
+        }
+    }
     let rows = run.duration / run.output_step;
     if !(rows <= MOST_ROWS) {
         let allowed = format!("{} s of run would make {rows:.1e} rows, and {MOST_ROWS:.0e} are the limit", number(run.duration));

@@ -9,7 +9,7 @@ use crate::error::{Error, MoorDynProblem};
 use crate::scene::bodies::{Body, BodyMotion, Inertia, Mount, PointMotion, Stiffness as Clamping};
 use crate::scene::moordyn::options::{Depth, Options};
 use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
-use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, RodKind, Stiffness};
+use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, RodKind, Stiffness, deck_attitude};
 use crate::scene::types::{Environment, Line, Motion, Scene, Stretch, Surface, Triple};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -155,6 +155,7 @@ impl Writer<'_> {
                 added_mass_along: of.added_mass.tangential * ratio * ratio,
             });
             self.lose(of.breaking_load.is_some(), || format!("line_types.{name}.breaking_load: it is left out"));
+            self.lose(of.fatigue.is_some(), || format!("line_types.{name}.fatigue: it is left out"));
             let pressed = of.inner_fluid.as_ref().is_some_and(|fluid| fluid.pressure != 0.0);
             self.lose(pressed, || format!("line_types.{name}.inner_fluid.pressure: it is left out"));
         }
@@ -189,7 +190,7 @@ impl Writer<'_> {
             id,
             attachment: if body.is_free() { Attachment::Free } else { Attachment::Coupled },
             position: body.position,
-            attitude: body.attitude_deg,
+            attitude: deck_attitude(body.attitude_deg),
             mass: 0.0,
             centre: [0.0; 3],
             inertia: [0.0; 3],

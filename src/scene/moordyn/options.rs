@@ -22,6 +22,10 @@ pub struct Options {
     pub friction: f64,
     /// Whether the file has currents beside it.
     pub currents: bool,
+    /// Whether waves come from a calling program.
+    pub outer_waves: bool,
+    /// Whether an equilibrium is looked for first: not where TmaxIC is 0.
+    pub settled: bool,
     /// Interval of output [s]; 0: not given.
     pub output_step: f64,
     /// What is allowed but may not be meant.
@@ -48,6 +52,8 @@ impl Default for Options {
             bed_damping: 3.0e5,
             friction: 0.0,
             currents: false,
+            outer_waves: false,
+            settled: true,
             output_step: 0.0,
             warnings: Vec::new(),
         }
@@ -145,6 +151,10 @@ pub fn read(section: Option<&Section>, file: &str) -> Result<Options, Error> {
             "currents" => currents(&mut options, plain("Currents")?, row, file)?,
             "waterkin" if value.is_empty() || value == "0" => {}
             "waterkin" => return Err(row.cannot(file, "WaterKin", NO_WATER_FILE)),
+            "tmaxic" | "ictmax" if plain("TmaxIC").is_ok_and(|most| most == 0.0) => {
+                options.settled = false;
+                ignored.push(key);
+            }
             known if OF_ITS_OWN.contains(&known) => ignored.push(key),
             _ => options.unknown(row, key, &lower, file)?,
         }
@@ -177,6 +187,7 @@ fn waves(options: &mut Options, kind: f64, row: &Row, file: &str) -> Result<(), 
     match kind {
         0.0 => Ok(()),
         1.0 => {
+            options.outer_waves = true;
             options.warnings.push(format!(
                 "line {}: WaveKin 1 takes waves from a calling program; there is none here, and no waves",
                 row.number

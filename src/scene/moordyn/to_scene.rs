@@ -18,7 +18,7 @@ use crate::scene::moordyn::beside::{self, Plane};
 use crate::scene::moordyn::options::Depth;
 use crate::scene::moordyn::reading::Reading;
 use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
-use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, Stiffness};
+use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, Stiffness, scene_attitude};
 use crate::scene::types::{
     Environment, Line, LineType, Motion, NormalTangential, Run, Scene, Seabed, Section, Solver, Surface, Triple,
 };
@@ -229,6 +229,7 @@ impl Making<'_> {
             damping: damping / ea,
             tension_strain: table,
             breaking_load: None,
+            fatigue: None,
             inner_fluid: None,
             outer_area: None,
             seabed_stiffness: (self.deck.options.bed_stiffness > 0.0).then_some(self.deck.options.bed_stiffness * kind.diameter),
@@ -340,7 +341,7 @@ impl Making<'_> {
                 if !self.bodies.iter().any(|body| body.name == name) {
                     self.spots.push((format!("bodies[{}]", self.bodies.len()), rod.row));
                     let cylinder = Cylinder { from: [0.0; 3], to: axis, ..self.cylinder(rod) };
-                    let body = Body { position: rod.a, motion: BodyMotion::Free, cylinders: vec![cylinder], ..plain(&name) };
+                    let body = Body { position: rod.a, motion: BodyMotion::Free, cylinders: vec![cylinder], ..Body::plain(&name) };
                     self.bodies.push(body);
                 }
                 Ok(on_body(&name, std::array::from_fn(|k| at[k] - rod.a[k]), clamp))
@@ -371,7 +372,7 @@ impl Making<'_> {
     }
 
     fn body(&mut self, body: &DeckBody, name: &str) -> Result<Body, Error> {
-        let pose = Body { position: body.position, attitude_deg: body.attitude, ..plain(name) };
+        let pose = Body { position: body.position, attitude_deg: scene_attitude(body.attitude), ..Body::plain(name) };
         if body.attachment != Attachment::Free {
             return Ok(pose);
         }
@@ -431,14 +432,14 @@ impl Making<'_> {
 
     fn vessel(&mut self) {
         if !self.bodies.iter().any(|body| body.name == VESSEL) {
-            self.bodies.push(plain(VESSEL));
+            self.bodies.push(Body::plain(VESSEL));
         }
     }
 
     fn plain_body(&mut self, name: &str, row: usize) {
         if !self.bodies.iter().any(|body| body.name == name) {
             self.spots.push((format!("bodies[{}]", self.bodies.len()), row));
-            self.bodies.push(plain(name));
+            self.bodies.push(Body::plain(name));
         }
     }
 
@@ -470,29 +471,6 @@ impl Making<'_> {
 
 fn on_body(name: &str, at: Triple, clamp: Option<Clamp>) -> (Triple, Option<Mount>) {
     ([0.0; 3], Some(Mount::Body { body: name.to_string(), at, clamp }))
-}
-
-/// A body that is nothing but a pose.
-fn plain(name: &str) -> Body {
-    Body {
-        name: name.to_string(),
-        position: [0.0; 3],
-        attitude_deg: [0.0; 3],
-        motion: BodyMotion::Fixed,
-        mass: 0.0,
-        centre_of_mass: [0.0; 3],
-        inertia: None,
-        cylinders: Vec::new(),
-        volume: 0.0,
-        centre_of_buoyancy: [0.0; 3],
-        added_mass: None,
-        damping: None,
-        quadratic_damping: None,
-        stiffness: None,
-        force: [0.0; 3],
-        moment: [0.0; 3],
-        load: None,
-    }
 }
 
 /// Masses put together: their sum, first and second moments about the origin.

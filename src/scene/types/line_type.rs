@@ -45,6 +45,10 @@ pub struct LineType {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub breaking_load: Option<f64>,
+    /// Curve of tension ranges against cycles to failure (a T–N curve), by which `run` sums the damage; needs `breaking_load`.
+    /// Default: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fatigue: Option<Fatigue>,
     /// Fluid inside a pipe. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_fluid: Option<InnerFluid>,
@@ -57,6 +61,20 @@ pub struct LineType {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub seabed_stiffness: Option<f64>,
+}
+
+/// A T–N curve: N = k·R^-m cycles to failure, R being the range of the tension (twice the amplitude) over the breaking load. API RP 2SK
+/// gives m = 3, k = 1000 for common studlink chain and k = 316 for studless chain, for example. Of a stress curve N = a·S^-m,
+/// k = a·(area / breaking load)^m.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fatigue {
+    /// Exponent [-], from 1 to 20.
+    #[schemars(range(min = 1.0, max = 20.0))]
+    pub m: f64,
+    /// Cycles to failure at a range as large as the breaking load [-], from 1e-3 to 1e7.
+    #[schemars(range(min = 1.0e-3, max = 1.0e7))]
+    pub k: f64,
 }
 
 /// A coefficient across and along the line.

@@ -18,6 +18,11 @@ pub struct Run {
     #[serde(default = "default_output_step")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub output_step: f64,
+    /// Time after the start that the statistics of a random sea and the damage leave out [s], ≥ 0 and below `duration`. Default: the
+    /// ramp of the waves or of the sinusoidal motion, whichever is longer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub transient: Option<f64>,
 }
 
 fn default_duration() -> f64 {
@@ -29,7 +34,7 @@ fn default_output_step() -> f64 {
 
 impl Default for Run {
     fn default() -> Self {
-        Run { duration: default_duration(), start: 0.0, output_step: default_output_step() }
+        Run { duration: default_duration(), start: 0.0, output_step: default_output_step(), transient: None }
     }
 }
 

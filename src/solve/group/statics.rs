@@ -12,15 +12,18 @@ use super::{Group, still};
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::error::{Adrift, Error, Trouble};
 use crate::rod::motion::Weights;
+use crate::rod::pose::PosePath;
 use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::System;
+use crate::scene::types::Scene;
 use crate::solve::condensed::Condensed;
 use crate::solve::motion::Path;
 use crate::solve::newton::{Effort, motion};
 use crate::solve::rounding;
 use crate::solve::simulation::{LastStep, StaticsReport};
 use nalgebra::{DMatrix, DVector, Vector3};
+use std::sync::Arc;
 
 /// Iterations at most.
 const ITERATIONS: usize = 200;
@@ -152,7 +155,7 @@ impl Group {
         let mut condensed = Condensed::new(self.network.nodes(), &self.network.links);
         let state = &self.moment.state;
         self.stiffness_at(state, &mut matrix);
-        condensed.condense(&self.network, &motion(state), &mut matrix).ok()?;
+        condensed.condense(&self.network, &motion(state), 1.0, &mut matrix).ok()?;
         Some(condensed.stiffness().clone())
     }
 
@@ -166,6 +169,17 @@ impl Group {
             if let Path::OnBody { body, .. } = path {
                 self.simulations[local].clamp_to(node - self.starts[local], body);
             }
+        }
+    }
+
+    /// Lets the ends of each line alone that are clamped to free bodies go with these.
+    fn clamp_to_bodies(&mut self, state: &State) {
+        for link in &self.network.links.clamped {
+            let Some(body) = self.network.bodies.get(link.master) else { continue };
+            let pose = body.motion(&motion(state));
+            let angles = crate::algebra::rotation::angles(&pose.rotation);
+            let held = Arc::new(PosePath::Fixed { position: pose.position, angles });
+            self.simulations[link.line].clamp_to(link.node - self.starts[link.line], &held);
         }
     }
 
@@ -238,6 +252,7 @@ impl Group {
         state.v.fill(0.0);
         state.a.fill(0.0);
         let mut pulls = 0.0_f64;
+        self.clamp_to_bodies(&state);
         for (simulation, start) in self.simulations.iter_mut().zip(&self.starts) {
             let last = start + simulation.line().last();
             let (anchor, fairlead) = (state.u.position(*start), state.u.position(last));
@@ -280,7 +295,7 @@ impl Group {
     fn assemble(&self, here: &Trial, matrix: &mut BlockTridiagonal<6>, condensed: &mut Condensed) -> Result<(), Error> {
         let at = motion(&here.state);
         self.stiffness_at(&here.state, matrix);
-        condensed.condense(&self.network, &at, matrix).map_err(|_| {
+        condensed.condense(&self.network, &at, 1.0, matrix).map_err(|_| {
             let trouble = Trouble::Unbalanced { iterations: 0, residual: here.force, allowed: here.aimed };
             Error::Network(Box::new(Adrift { what: self.names[here.worst].clone(), time: here.state.clock.now, trouble }))
         })
@@ -295,6 +310,15 @@ impl Group {
             (0..6).for_each(|c| matrix.diagonal[node][(c, c)] += 1.0e-9 * size);
         }
         self.network.fixed.iter().for_each(|&(node, component)| matrix.fix(node, component));
+    }
+
+    /// Puts the lines in equilibrium at a time, with all that is free at rest where a scene has it, to be let go there.
+    pub fn hold(&mut self, time: f64, scene: &Scene) -> Result<StaticsReport, Error> {
+        self.put_as_in(scene);
+        self.clamp_lines();
+        let here = self.try_at(self.start(time))?;
+        self.begin_from(here.state);
+        Ok(StaticsReport { iterations: 1, residual: here.force, converged: true, others: false })
     }
 
     /// Begins anew from a state at rest.

@@ -4,6 +4,7 @@ use super::{Counters, LastStep, NodeOutput, Outputs, Simulation};
 use crate::rod::physics::Decision;
 use crate::rod::state::{Field, State};
 use crate::scene::state::LineState;
+use crate::solve::between::{self, Place};
 use crate::solve::newton::motion;
 use crate::solve::scheme::Moment;
 use crate::solve::{line_state, outputs, tangent};
@@ -52,6 +53,16 @@ impl Simulation {
             return mixed.nodes(self.line.as_ref(), &self.moment.state);
         }
         outputs::nodes(self.line.as_ref(), &self.moment.state)
+    }
+
+    /// What it is like now at arc lengths from the fairlead [m].
+    pub fn places(&self, at: &[f64]) -> Vec<Place> {
+        let (line, state) = (self.line.as_ref(), &self.moment.state);
+        let forces = match &self.mixed {
+            Some(mixed) => mixed.node_forces(state),
+            None => outputs::node_forces(line, state),
+        };
+        at.iter().map(|s| between::at(line, state, &forces, *s)).collect()
     }
 
     /// Nodes now as the files of 1994 have them, from the fairlead: with slopes, rates and λ.
