@@ -566,9 +566,9 @@ mod tests {
         let [inner, outer] = ["deps/libmoorline.so", "libmoorline.so"].map(|name| folder.join(name));
         let found = || Libraries::beside(&folder.join("moorline")).files.into_values().collect::<Vec<_>>();
         std::fs::write(&inner, b"").unwrap();
-        assert_eq!(found(), [inner.clone()]);
+        assert_eq!(found(), std::slice::from_ref(&inner));
         std::fs::hard_link(&inner, &outer).unwrap();
-        assert_eq!(found(), [outer.clone()]);
+        assert_eq!(found(), std::slice::from_ref(&outer));
         std::fs::remove_file(&inner).unwrap();
         std::fs::write(&inner, b"").unwrap();
         let later = std::time::SystemTime::now() + std::time::Duration::from_secs(10);
