@@ -117,6 +117,15 @@ fn numbers<'a>(what: &str, from: *const f64, count: usize) -> Outcome<&'a [f64]>
     Ok(unsafe { std::slice::from_raw_parts(from, count) })
 }
 
+/// One of several values of the program.
+fn taken<T: Copy>(what: &str, from: *const T, index: usize) -> Outcome<T> {
+    if from.is_null() {
+        return Err(Failure::invalid(format!("{what} is NULL")));
+    }
+    // SAFETY: not NULL, so it holds as many values as its parameter says (see the head of the file), of which the caller asks for one.
+    Ok(unsafe { from.add(index).read_unaligned() })
+}
+
 /// Gives a value to the program.
 fn give<T>(to: *mut T, value: T) -> Outcome {
     if to.is_null() {

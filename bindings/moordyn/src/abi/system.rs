@@ -1,6 +1,6 @@
 //! `MoorDyn2.h`: the mooring.
 
-use super::{give, give_all, guarded, numbers, on, returned, text, whole, without_meaning};
+use super::{give, give_all, guarded, numbers, on, returned, taken, text, whole, without_meaning};
 use crate::failure::{Failure, Outcome};
 use crate::registry::{self, Handle, Item};
 use crate::rig::Thing;
@@ -223,11 +223,7 @@ pub extern "C" fn MoorDyn_GetFASTtens(
     anchor_up: *mut c_float,
 ) -> c_int {
     on("MoorDyn_GetFASTtens", system, whole, |system, _| {
-        if count.is_null() {
-            return Err(Failure::invalid("numLines is NULL"));
-        }
-        // SAFETY: not NULL, so it points to one number (see the head of `abi`).
-        let asked = unsafe { count.read_unaligned() };
+        let asked = taken("numLines", count, 0)?;
         let lines = system.rig.lines.len();
         let asked = usize::try_from(asked).ok().filter(|asked| *asked <= lines);
         let asked = asked.ok_or_else(|| Failure::invalid(format!("numLines must be from 0 to {lines}, the number of lines")))?;
@@ -337,14 +333,11 @@ pub extern "C" fn MoorDyn_Serialize(system: Handle, size: *mut usize, data: *mut
 #[unsafe(no_mangle)]
 pub extern "C" fn MoorDyn_Deserialize(system: Handle, data: *const u64) -> c_int {
     on("MoorDyn_Deserialize", system, whole, |system, _| {
-        if data.is_null() {
-            return Err(Failure::invalid("the state is NULL"));
-        }
-        // SAFETY: not NULL, so it is a state that `MoorDyn_Serialize` gave, which is longer than two numbers.
-        let read = |index: usize| unsafe { data.add(index).read_unaligned() };
-        let length = System::length_of_state([read(0), read(1)]);
+        // What `MoorDyn_Serialize` gave is longer than two numbers, and says how long it is.
+        let read = |index: usize| taken("the state", data, index);
+        let length = System::length_of_state([read(0)?, read(1)?]);
         let length = length.ok_or_else(|| Failure::invalid("this is no state of a mooring"))?;
-        let state: Vec<u64> = (0..length).map(read).collect();
+        let state = (0..length).map(read).collect::<Outcome<Vec<u64>>>()?;
         system.restore(&state)
     })
 }
