@@ -96,6 +96,26 @@ impl Friction {
         self
     }
 
+    /// Largest friction over push [-].
+    pub fn coefficient(&self) -> f64 {
+        self.coefficient
+    }
+
+    /// Two unit vectors along the bed, at right angles.
+    pub fn axes(&self) -> [Vector3<f64>; 2] {
+        self.axes
+    }
+
+    /// k_t of element `e` [Pa].
+    pub fn stiffness(&self, e: usize) -> f64 {
+        self.grips[e].stiffness
+    }
+
+    /// k_t for which r_h of element `e` is kept [Pa].
+    pub fn kept(&self, e: usize) -> f64 {
+        self.grips[e].kept
+    }
+
     /// δ of the thinnest element [m].
     pub fn breakaway(&self) -> f64 {
         self.grips.iter().map(|grip| grip.breakaway).fold(f64::INFINITY, f64::min)
