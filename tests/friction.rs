@@ -274,12 +274,16 @@ fn a_bed_is_the_same_for_elements_side_by_side_and_one_by_one() {
     for (damping, mu, tilt) in
         [(0.0, 0.0, 0.0), (150.0, 0.0, 0.2), (0.0, 0.6, 0.2), (150.0, 0.6, 0.0), (150.0, 0.6, 0.2), (0.0, 0.6, 0.0)]
     {
-        for _ in 0..20 {
-            let mesh =
-                Mesh::new(vec![material(2.0e4, 12.0, 70.0)], &[vec![3.0, 2.0, 4.0, 3.0, 2.0, 2.5, 3.5, 1.5, 3.0, 2.0, 4.0]]);
+        for laid in (0..20).map(|number| number % 2 == 1) {
+            // Two sections: between them is a joint, which has no length.
+            let (rope, chain) = (material(2.0e4, 12.0, 70.0), material(3.0e4, 20.0, 110.0));
+            let mesh = Mesh::new(vec![rope, chain], &[vec![3.0, 2.0, 4.0, 3.0], vec![2.0, 2.5, 3.5, 1.5, 3.0, 2.0, 4.0]]);
+            let joints: Vec<usize> = (0..mesh.elements.len()).filter(|e| mesh.elements[*e].is_joint()).collect();
+            assert_eq!(joints.len(), 1);
             let plane = Plane { normal: Vector3::new(-tilt, 0.5 * tilt, 1.0).normalize(), offset: -2.0 };
             let resistance = Resistance { stiffness: 900.0, damping, onset: 0.08, easing: 0.1 };
             let friction = (mu > 0.0).then(|| Friction::new(mu, &plane, &mesh));
+            let friction = if laid { friction.map(|friction| friction.laid(&mesh)) } else { friction };
             let ground = Ground { plane, resistance: vec![resistance; mesh.elements.len()], friction };
             let around = |ground: Option<Ground>| Surroundings {
                 stretch: moorline::scene::types::Stretch::Exact,
@@ -305,6 +309,10 @@ fn a_bed_is_the_same_for_elements_side_by_side_and_one_by_one() {
                 fields[1].set_position(node, &any(&mut random));
                 fields[1].set_slope(node, &any(&mut random));
             }
+            for e in &joints {
+                let place = fields[0].position(*e);
+                fields[0].set_position(e + 1, &place);
+            }
             let mut holds = Field::new(line.holding_nodes());
             line.hold(&fields[0], &fields[1], &mut holds);
             if line.holding_nodes() > 0 {
@@ -324,6 +332,11 @@ fn a_bed_is_the_same_for_elements_side_by_side_and_one_by_one() {
                     lying += usize::from(ground.touching_length(&table, u, e) == mesh.elements[e].length);
                     scatter_to_nodes(one_by_one, e, mesh.elements[e].length, &push);
                 }
+            }
+            for e in &joints {
+                // Forces on tied nodes go to the second of them.
+                one_by_one.set_position(e + 1, &(one_by_one.position(*e) + one_by_one.position(e + 1)));
+                one_by_one.set_position(*e, &Vector3::zeros());
             }
             let scale = one_by_one.data().iter().fold(1.0e-9f64, |most, x| most.max(x.abs()));
             side_by_side.add(-1.0, one_by_one);

@@ -91,7 +91,9 @@ impl Friction {
     pub fn laid(mut self, mesh: &Mesh) -> Friction {
         self.coefficient /= 1.0 + MARGIN;
         for (e, grip) in self.grips.iter_mut().enumerate() {
-            grip.stiffness = mesh.properties_of(e).ea / (BLUR * mesh.elements[e].length).powi(2);
+            let length = mesh.elements[e].length;
+            // A joint has no length and holds on to nothing.
+            grip.stiffness = if length > 0.0 { mesh.properties_of(e).ea / (BLUR * length).powi(2) } else { 0.0 };
         }
         self
     }
