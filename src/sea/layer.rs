@@ -24,8 +24,9 @@ const ERROR_OF_ELEVATION: f64 = 1.0e-5;
 const AWAY: f64 = 4.0;
 /// Half a slot times the highest frequency, at most [-].
 const BRIEF: f64 = 2.0;
-/// Numbers of a polynomial of velocities: by power of time, real parts and imaginary parts; and of one of elevations.
+/// Numbers of a polynomial of velocities: by power of time, real parts and imaginary parts.
 pub const MOTION: usize = 2 * TERMS * POWERS;
+/// Numbers of a polynomial of elevations.
 pub const SWELL: usize = TERMS * POWERS;
 /// A band of frequencies is at least this share of its highest.
 const NARROWEST: f64 = 1.0e-3;
@@ -69,6 +70,8 @@ pub struct Layer {
     pub middle: f64,
     /// Half the width and half the height of a cell [m].
     pub half: f64,
+    /// 1 over the width [1/m].
+    pub per_width: f64,
     /// Duration of a slot [s].
     pub slot: f64,
     /// How many make a span.
@@ -141,7 +144,13 @@ impl Layer {
             pull.map(|pull| pull / total)
         };
         let (down, back): (Vec<f64>, Vec<f64>) = members.iter().map(&moved).unzip();
-        let back = if back.iter().any(|back| *back > 0.0) { back } else { Vec::new() };
+        // Longest first: what is too short to come back is left out.
+        let mut left_out = 0.0;
+        let faint = back.iter().rev().take_while(|back| {
+            left_out += **back * **back;
+            left_out < error * error
+        });
+        let back = back[..back.len() - faint.count()].to_vec();
         // Interpolation at Chebyshev's points leaves out (ωs)^6/(6! 2^5).
         let sixth = 10.0 * size(members, |member| moved(member).0 * member.omega.powi(POWERS as i32)) / (720.0 * 32.0);
         let span = 2.0 * WHILE / band;
@@ -154,6 +163,7 @@ impl Layer {
         Layer {
             middle,
             half,
+            per_width: 0.5 / half,
             slot,
             slots,
             terms,

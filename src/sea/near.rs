@@ -66,6 +66,8 @@ struct Plan {
 struct Memory {
     moment: u64,
     time: f64,
+    /// This time in the slots of every layer.
+    now: Vec<Now>,
     /// Real and imaginary S_j, of the waves and of what the bed sends back.
     sums: Shelf<[[f64; STAND]; 4]>,
     motions: Shelf<[f64; MOTION]>,
@@ -136,28 +138,38 @@ impl Plan {
     }
 }
 
-/// A place and a time within a cell and a slot.
-struct Within {
-    layer: usize,
-    /// Number of the cell, with that of its layer.
-    cell: i64,
+/// A time within a slot of a layer.
+#[derive(Debug, Clone, Copy)]
+struct Now {
     slot: i64,
-    /// The middle of the cell along the direction of travel, and the distance from there [m].
-    middle: f64,
-    off: f64,
     /// Time from the middle of the slot, by half a slot.
     share: f64,
 }
 
+impl Now {
+    fn new(layer: &Layer, time: f64) -> Now {
+        let slot = (time / layer.slot).floor();
+        Now { slot: slot as i64, share: (time - (slot + 0.5) * layer.slot) * (2.0 / layer.slot) }
+    }
+}
+
+/// A place within a cell.
+struct Within {
+    layer: usize,
+    /// Number of the cell, with that of its layer.
+    cell: i64,
+    /// The middle of the cell along the direction of travel, and the distance from there [m].
+    middle: f64,
+    off: f64,
+}
+
 impl Within {
     #[inline(always)]
-    fn new(plan: &Plan, layer: usize, along: f64, time: f64) -> Within {
+    fn new(plan: &Plan, layer: usize, along: f64) -> Within {
         let of = &plan.layers[layer];
-        let column = (along / (2.0 * of.half)).round();
-        let (middle, slot) = (column * 2.0 * of.half, (time / of.slot).floor());
-        let share = (time - (slot + 0.5) * of.slot) * (2.0 / of.slot);
-        let cell = ((column as i64) << 16) + layer as i64;
-        Within { layer, cell, slot: slot as i64, middle, off: along - middle, share }
+        let column = (along * of.per_width).round_ties_even();
+        let middle = column * (2.0 * of.half);
+        Within { layer, cell: ((column as i64) << 16) + layer as i64, middle, off: along - middle }
     }
 }
 
@@ -167,6 +179,7 @@ impl Memory {
         Memory {
             moment: RECENT,
             time: f64::NAN,
+            now: vec![Now { slot: 0, share: 0.0 }; plan.layers.len()],
             sums: Shelf::new([[0.0; STAND]; 4]),
             motions: Shelf::new([0.0; MOTION]),
             swells: Shelf::new([0.0; SWELL]),
@@ -175,17 +188,18 @@ impl Memory {
     }
 
     #[inline(always)]
-    fn tick(&mut self, time: f64) {
+    fn tick(&mut self, plan: &Plan, time: f64) {
         if time != self.time {
             (self.time, self.moment) = (time, self.moment + 1);
+            self.now.iter_mut().zip(&plan.layers).for_each(|(now, layer)| *now = Now::new(layer, time));
         }
     }
 
     /// The sums of a cell and the span of a slot, and the number of the slot in it.
     #[inline(always)]
-    fn sums<V: Simd>(&mut self, cpu: V, plan: &Plan, within: &Within) -> (&[[f64; STAND]; 4], usize) {
+    fn sums<V: Simd>(&mut self, cpu: V, plan: &Plan, within: &Within, slot: i64) -> (&[[f64; STAND]; 4], usize) {
         let of = &plan.layers[within.layer];
-        let (span, slot) = (within.slot.div_euclid(of.slots), within.slot.rem_euclid(of.slots));
+        let (span, slot) = (slot.div_euclid(of.slots), slot.rem_euclid(of.slots));
         let (at, missing) = self.sums.place((within.cell, span), self.moment);
         if missing {
             let midst = (span as f64 + 0.5) * of.slots as f64 * of.slot;
@@ -197,18 +211,18 @@ impl Memory {
     /// Σ a cos θ [m].
     #[inline(always)]
     fn elevation<V: Simd>(&mut self, cpu: V, plan: &Plan, along: f64, time: f64) -> f64 {
-        self.tick(time);
-        let within = Within::new(plan, 0, along, time);
-        let (at, missing) = self.swells.place((within.cell, within.slot), self.moment);
+        self.tick(plan, time);
+        let (within, now) = (Within::new(plan, 0, along), self.now[0]);
+        let (at, missing) = self.swells.place((within.cell, now.slot), self.moment);
         if missing {
             let mut swell = [0.0; SWELL];
-            let (sums, slot) = self.sums(cpu, plan, &within);
+            let (sums, slot) = self.sums(cpu, plan, &within, now.slot);
             plan.layers[0].swell(cpu, sums, slot, &mut swell);
             self.swells.things[at] = swell;
         }
         let (swell, mut terms) = (&self.swells.things[at], [0.0; TERMS]);
         for lane in (0..TERMS).step_by(V::F64_LANES) {
-            let share = Lanes::<V>::splat(cpu, within.share);
+            let share = Lanes::<V>::splat(cpu, now.share);
             let mut sum = Lanes::<V>::load(cpu, swell, (POWERS - 1) * TERMS + lane);
             for n in (0..POWERS - 1).rev() {
                 sum = sum.mul_add(share, Lanes::load(cpu, swell, n * TERMS + lane));
@@ -226,20 +240,20 @@ impl Memory {
     /// The series of the velocity and of its rate [1/s] in a layer now: real and imaginary factors of ζ^m of each, and how far off the middle it is.
     #[inline(always)]
     fn series<V: Simd>(&mut self, cpu: V, plan: &Plan, layer: usize, along: f64, time: f64) -> ([[f64; 2 * TERMS]; 2], f64) {
-        self.tick(time);
-        let within = Within::new(plan, layer, along, time);
-        let (at, missing) = self.motions.place((within.cell, within.slot), self.moment);
+        self.tick(plan, time);
+        let (within, now) = (Within::new(plan, layer, along), self.now[layer]);
+        let (at, missing) = self.motions.place((within.cell, now.slot), self.moment);
         let of = &plan.layers[layer];
         if missing {
             let mut motion = [0.0; MOTION];
-            let (sums, slot) = self.sums(cpu, plan, &within);
+            let (sums, slot) = self.sums(cpu, plan, &within, now.slot);
             of.motion(cpu, sums, slot, &mut motion);
             self.motions.things[at] = motion;
         }
         let (motion, mut series) = (&self.motions.things[at], [[0.0; 2 * TERMS]; 2]);
         let [values, rates] = &mut series;
         for lane in (0..2 * TERMS).step_by(V::F64_LANES) {
-            let share = Lanes::<V>::splat(cpu, within.share);
+            let share = Lanes::<V>::splat(cpu, now.share);
             let term = |n: usize| Lanes::<V>::load(cpu, motion, n * 2 * TERMS + lane);
             let mut rate = term(POWERS - 1);
             let mut sum = rate.mul_add(share, term(POWERS - 2));
@@ -285,26 +299,22 @@ impl Memory {
             return [0.0; 4];
         }
         let ([values, rates], off) = self.series(cpu, plan, layer, along, time);
-        // Powers of ζ.
-        let product = |(a, b): (f64, f64), (c, d): (f64, f64)| (a * c - b * d, a * d + b * c);
-        let one = (up, off);
-        let two = product(one, one);
-        let (three, four) = (product(two, one), product(two, two));
-        let all = [(1.0, 0.0), one, two, three, four, product(four, one), product(four, two), product(four, three)];
-        let (mut re, mut im) = ([0.0; TERMS], [0.0; TERMS]);
-        for (m, power) in all.iter().enumerate() {
-            (re[m], im[m]) = *power;
-        }
-        let mut sums = [Lanes::<V>::splat(cpu, 0.0); 4];
-        for at in (0..TERMS).step_by(V::F64_LANES) {
-            let (re, im) = (Lanes::<V>::load(cpu, &re, at), Lanes::<V>::load(cpu, &im, at));
-            for (c, series) in [&values, &rates].into_iter().enumerate() {
-                let (x, y) = (Lanes::<V>::load(cpu, series, at), Lanes::<V>::load(cpu, series, TERMS + at));
-                sums[2 * c] = x.mul_add(re, (-y).mul_add(im, sums[2 * c]));
-                sums[2 * c + 1] = x.mul_add(im, y.mul_add(re, sums[2 * c + 1]));
+        // Terms of even and of odd order side by side, by powers of ζ².
+        let (re, im) = (up * up - off * off, 2.0 * up * off);
+        let sum = |series: &[f64; 2 * TERMS]| {
+            let mut sums = [0.0; 4];
+            for m in (0..TERMS).step_by(2).rev() {
+                for (c, last) in [(0, [sums[0], sums[1]]), (2, [sums[2], sums[3]])] {
+                    let at = m + c / 2;
+                    sums[c] = last[0].mul_add(re, last[1].mul_add(-im, series[at]));
+                    sums[c + 1] = last[1].mul_add(re, last[0].mul_add(im, series[TERMS + at]));
+                }
             }
-        }
-        [sums[0].sum(), sums[1].sum(), sums[2].sum(), sums[3].sum()]
+            let [u, w, odd_u, odd_w] = sums;
+            [odd_u.mul_add(up, odd_w.mul_add(-off, u)), odd_w.mul_add(up, odd_u.mul_add(off, w))]
+        };
+        let ([u, w], [du, dw]) = (sum(&values), sum(&rates));
+        [u, w, du, dw]
     }
 }
 
