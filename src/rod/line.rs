@@ -14,6 +14,7 @@ use crate::rod::element_tangent;
 use crate::rod::flows::Flows;
 use crate::rod::hold::Hold;
 use crate::rod::joint;
+use crate::rod::lying::Lying;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
 use crate::rod::motion::{Asking, Motion, Weights};
@@ -71,7 +72,10 @@ pub struct Rod<S, W, B, D> {
     table: Table,
     water: W,
     ground: Option<Ground>,
+    /// The bed, where it is of springs alone.
     bed: Option<Bed>,
+    /// The bed, where it dissipates.
+    lying: Option<Lying>,
     surface: Option<Surface>,
     /// What the waves do in a stage.
     flows: Option<Mutex<Flows>>,
@@ -101,14 +105,15 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
         let table = Table::new(&mesh, surface.as_ref().map(|_| water.lowest_surface()));
-        let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance, ground.friction.is_some()));
+        let lying = ground.as_ref().and_then(Lying::new);
+        let bed = ground.as_ref().filter(|_| lying.is_none()).map(|ground| Bed::new(ground.plane, &ground.resistance));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e) && !mesh.gaps.contains(e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
         let flows = W::WAVES.then(|| {
             let of = |number: &dyn Fn(usize) -> f64| (0..table.len()).map(number).collect();
             Mutex::new(Flows::new(of(&|e| table.length_of(e)), of(&|e| table.waterline_of(e))))
         });
-        Rod { mesh, table, water, ground, bed, surface, flows, joints, stiff_joints, supports, laws: PhantomData }
+        Rod { mesh, table, water, ground, bed, lying, surface, flows, joints, stiff_joints, supports, laws: PhantomData }
     }
 
     /// The motion of the waves as the stage of a motion has it; none: it is asked for where the line is.
@@ -146,7 +151,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
     fn element_forces(&self, at: &Motion, e: usize) -> [Triple<f64>; 4] {
         let acting = element::forces::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, e);
         let mut sum = acting.ends;
-        for part in self.partial_forces(at, e, acting.touching > 0.0, acting.dry > 0.0).into_iter().flatten() {
+        for part in
+            self.partial_forces(at, e, acting.touching > 0.0 || self.lying.is_some(), acting.dry > 0.0).into_iter().flatten()
+        {
             (0..4).for_each(|k| sum[k] = sum[k] + part[k]);
         }
         sum
@@ -184,6 +191,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
         let flows = self.flows_of(at);
         element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), flows.as_deref(), at, out, partly);
         drop(flows);
+        if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
+            lying.add_to(ground, &self.table, at, out);
+        }
         for &(e, kappa) in &self.stiff_joints {
             let (p, q) = (at.u.slope(e), at.u.slope(e + 1));
             out.set_slope(e, &(out.slope(e) + joint::moment(kappa, &p, &q)));
@@ -253,8 +263,8 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
     }
 
     fn hold(&self, u: &Field, v: &Field, holds: &mut Field) {
-        if let Some(ground) = &self.ground {
-            ground.hold(&self.table, u, v, holds);
+        if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
+            lying.hold(ground, &self.table, u, v, holds);
         }
     }
 }
@@ -288,6 +298,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
             }
         };
         element::end_forces::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
+            lying.add_to_ends(ground, &self.table, at, out);
+        }
         out[0] = -out[0];
         for &e in &self.joints {
             let acted_on = self.mesh.points.contains(&e);
