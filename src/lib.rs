@@ -77,6 +77,7 @@ pub mod rod {
     pub mod element;
     pub mod element_tangent;
     pub mod ends;
+    pub mod flows;
     pub mod friction;
     pub mod grading;
     pub mod hold;
@@ -105,9 +106,11 @@ pub mod sea {
     pub mod current;
     pub mod drawing;
     pub mod figures;
+    pub mod layer;
     pub mod near;
     pub mod random;
     pub mod series;
+    pub mod shelf;
     pub mod spectrum;
     pub mod spreading;
     pub mod stream;

@@ -6,7 +6,7 @@ use moorline::rod::element::{Table, scatter_to_nodes};
 use moorline::rod::friction::Friction;
 use moorline::rod::line::Supports;
 use moorline::rod::mesh::Mesh;
-use moorline::rod::motion::Motion;
+use moorline::rod::motion::{Asking, Motion};
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::properties::Properties;
 use moorline::rod::seabed::{Plane, Resistance};
@@ -321,7 +321,7 @@ fn a_bed_is_the_same_for_elements_side_by_side_and_one_by_one() {
                 }
             }
             let [u, v, a, one_by_one] = &mut fields;
-            let at = Motion { clock: Clock::at_rest(0.0), u, v, a, holds: &holds, frames: &[] };
+            let at = Motion { clock: Clock::at_rest(0.0), u, v, a, holds: &holds, frames: &[], asking: Asking::Alone };
             let (mut side_by_side, mut without) = (Field::new(mesh.nodes()), Field::new(mesh.nodes()));
             line.residual(&at, &mut side_by_side);
             free.residual(&at, &mut without);

@@ -3,6 +3,7 @@
 
 use moorline::algebra::triple::Triple;
 use moorline::scene::read;
+use moorline::scene::types::Stretching;
 use moorline::sea::clock::Clock;
 use moorline::sea::spectrum::Jonswap;
 use moorline::sea::wave::{Wave, wave_number};
@@ -52,9 +53,10 @@ fn jonswap(hs: f64, tp: f64, seed: u64, count: usize) -> Vec<Wave> {
     Jonswap { hs, tp, gamma: 3.3 }.waves(seed, count, 0.6)
 }
 
-/// Elevation, velocity and acceleration anywhere and at any time in three hours within 1e-4 of their standard deviations at the surface,
-/// in deep, finite and shallow water, for few and for many components. (Measured:
-/// 1.3e-5. The program leaves out what is faint, of which the textbook sums know nothing.)
+/// Elevation and velocity anywhere and at any time in three hours within 5e-5 of their standard deviations at the surface, accelerations within 3e-4,
+/// in deep, finite and shallow water, for few and for many components. The series that
+/// stand for the components leave out 3e-6 of the velocity, rms, and some ten times that of its rate. (Measured: 3e-5 in η, 3e-5 in v; the rate is held
+/// to 3e-4.)
 #[test]
 fn sums_by_cells_are_those_of_all_components() {
     let mut random = Random(7);
@@ -83,12 +85,67 @@ fn sums_by_cells_are_those_of_all_components() {
             for c in 0..6 {
                 let error = (found[c] - exact[c]).abs() / deviation(if c < 3 { 1 } else { 2 });
                 worst[1 + c / 3] = worst[1 + c / 3].max(error);
-                assert!(error < 1e-4, "depth {depth}, {count} components, {at:?}, t = {time}: {c}: {} {}", found[c], exact[c]);
+                assert!(
+                    error < if c < 3 { 1e-4 } else { 3e-4 },
+                    "depth {depth}, {count} components, {at:?}, t = {time}: {c}: {} {}",
+                    found[c],
+                    exact[c]
+                );
             }
         }
     }
     println!("largest errors of η, v and ∂v/∂t per standard deviation: {worst:?}");
-    assert!(worst[0] < 2e-5, "{worst:?}");
+    assert!(worst[0] < 5e-5 && worst[1] < 5e-5, "{worst:?}");
+}
+
+/// Seas of all kinds at random: each stretching, depths from shallow to deep, one direction and several, with a handful of waves in a
+/// direction of their own that are summed one by one beside the cells. Elevation, velocity and acceleration against the sum of all components, one by
+/// one, within 1e-4, 2e-4 and 5e-4 of their standard deviations; rms a tenth of that. (The one-by-one sum leaves out what is faint at
+/// a depth; measured: see what is printed.)
+#[test]
+fn seas_of_all_kinds_are_those_summed_one_by_one() {
+    let mut random = Random(23);
+    for stretching in [Stretching::Wheeler, Stretching::None, Stretching::Vertical, Stretching::Extrapolation] {
+        for (hs, tp, depth, directions) in [(4.0, 10.0, 120.0, 1), (3.0, 7.0, 30.0, 3), (6.0, 12.0, 900.0, 2)] {
+            let mut waves = Vec::new();
+            for direction in 0..directions {
+                let own = jonswap(hs / f64::from(directions).sqrt(), tp * (1.0 + 0.2 * random.next()), 5 + direction as u64, 60);
+                waves.extend(own.into_iter().map(|wave| Wave { direction: 0.3 + f64::from(direction), ..wave }));
+            }
+            let few = jonswap(0.2 * hs, 0.8 * tp, 90, 4);
+            waves.extend(few.into_iter().map(|wave| Wave { direction: -1.0, ..wave }));
+            let cells = Waves::new(&waves, G, depth, 0.0).stretched(stretching);
+            let judge = cells.clone().one_by_one();
+            assert!(!cells.by_cells(), "the handful is summed one by one");
+            let deviation =
+                |power: i32| waves.iter().map(|wave| 0.5 * (wave.amplitude * wave.omega.powi(power)).powi(2)).sum::<f64>().sqrt();
+            let (mut worst, mut squares, count) = ([0.0_f64; 3], [0.0_f64; 3], 600);
+            for n in 0..count {
+                let z = if n % 3 == 0 { 0.6 * hs * (random.next() - 0.7) } else { -depth * random.next().powi(3) };
+                let at = Triple { x: 4000.0 * (random.next() - 0.5), y: 4000.0 * (random.next() - 0.5), z };
+                let clock = late(10_800.0 * random.next());
+                let numbers = |sea: &Waves| {
+                    let flow = sea.flow((), &clock, &at).map_or([0.0; 6], |flow| {
+                        let (v, a) = (flow.velocity, flow.acceleration);
+                        [v.x, v.y, v.z, a.x, a.y, a.z]
+                    });
+                    (sea.elevation(&clock, at.x, at.y), flow)
+                };
+                let ((eta, found), (exact_eta, exact)) = (numbers(&cells), numbers(&judge));
+                let mut count_in = |kind: usize, error: f64| {
+                    let error = error.abs() / deviation(kind as i32);
+                    worst[kind] = worst[kind].max(error);
+                    squares[kind] += error * error;
+                };
+                count_in(0, eta - exact_eta);
+                (0..6).for_each(|c| count_in(1 + c / 3, found[c] - exact[c]));
+            }
+            let rms = [0, 1, 2].map(|kind| (squares[kind] / f64::from(count) / if kind > 0 { 3.0 } else { 1.0 }).sqrt());
+            println!("{stretching:?}, {depth} m, {directions} directions: largest {worst:?}, rms {rms:?}");
+            assert!(worst[0] < 1e-4 && worst[1] < 2e-4 && worst[2] < 5e-4, "{stretching:?}, {depth} m: {worst:?}");
+            assert!(rms[0] < 1e-5 && rms[1] < 2e-5 && rms[2] < 5e-5, "{stretching:?}, {depth} m: rms {rms:?}");
+        }
+    }
 }
 
 /// Places and times in any order, forwards and back, more of them than there is room for: each answer has the bits of one that a fresh sea

@@ -17,6 +17,7 @@ use crate::rod::axial::Axial;
 use crate::rod::bending::Bending;
 use crate::rod::elasticity::Curves;
 use crate::rod::ends::Ends;
+use crate::rod::flows::Flows;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::{self, Coefficients, PointMotion, Water};
 use crate::rod::motion::Motion;
@@ -115,6 +116,11 @@ impl Table {
     /// Length of element `e` [m]; 1 for a joint.
     pub fn length_of(&self, e: usize) -> f64 {
         self.get(Property::Length, e)
+    }
+
+    /// Height below which element `e` is certainly wet [m].
+    pub fn waterline_of(&self, e: usize) -> f64 {
+        self.get(Property::Waterline, e)
     }
 
     /// Whether element `e` is a joint.
@@ -221,6 +227,8 @@ pub(in crate::rod) struct Source<'a, W> {
     pub table: Rows<'a>,
     pub water: &'a W,
     bed: Option<&'a Bed>,
+    /// The motion of the waves at the Gauss points, where it is known.
+    flows: Option<&'a Flows>,
     pub u: [&'a [f64]; COMPONENTS],
     pub v: [&'a [f64]; COMPONENTS],
     pub a: [&'a [f64]; COMPONENTS],
@@ -234,6 +242,7 @@ impl<'a, W> Source<'a, W> {
             table: table.rows(),
             water,
             bed,
+            flows: None,
             u: at.u.rows(),
             v: at.v.rows(),
             a: at.a.rows(),
@@ -266,7 +275,7 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
     let wet = u.wet(table.get(Property::Waterline));
     let weight = table.get(Property::WeightInAir) - table.get(Property::Buoyancy) * wet;
     let mut sum = [Triple::zero(cpu); 4];
-    for (gauss, shape) in GAUSS3.iter().zip(&SHAPES3) {
+    for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {
         let direction = Direction::of(u.combine(&shape.slope) * per_length);
         let rate = v.combine(&shape.slope) * per_length;
         let acceleration = a.combine(&shape.value);
@@ -278,7 +287,11 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
         if W::PRESENT {
             let velocity = v.combine(&shape.value);
             let point = PointMotion { clock: source.clock, direction, place: u.combine(&shape.value), velocity, acceleration };
-            x = morison::force(cpu, source.water, &coefficients, &point).mul_add(-wet, x);
+            let past = match source.flows {
+                Some(flows) if W::WAVES => source.water.past_with(cpu, &point, &flows.get(cpu, g, e)),
+                _ => source.water.past(cpu, &point),
+            };
+            x = morison::force_past(source.water, &coefficients, &point, past).mul_add(-wet, x);
         }
         let x = x * w;
         for k in 0..4 {
@@ -299,16 +312,17 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
     Acting { ends: sum, touching, dry: -wet + 1.0 }
 }
 
-/// Adds the residual of every element to `out`, and calls `partly` for each that is still to be looked at, with what there may be.
+/// Adds the residual of every element to `out`, with the waves as `flows` has them or as they are asked for, and calls `partly` for each that is still to be looked at, with what there may be.
 pub fn residual<S: Stretch, W: Water, B: Bending, D: Dimension>(
     table: &Table,
     water: &W,
     bed: Option<&Bed>,
+    flows: Option<&Flows>,
     motion: &Motion,
     out: &mut Field,
     partly: impl FnMut(usize, bool, bool, &mut Field),
 ) {
-    let source = Source::new(table, water, bed, motion);
+    let source = Source { flows, ..Source::new(table, water, bed, motion) };
     table.processor.dispatch(Residual::<S, W, B, D, _> { table, source, out, partly, laws: PhantomData });
 }
 

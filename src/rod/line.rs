@@ -11,12 +11,13 @@ use crate::rod::body::Body;
 use crate::rod::clamp::{Clamp, Holder};
 use crate::rod::element::{self, Table};
 use crate::rod::element_tangent;
+use crate::rod::flows::Flows;
 use crate::rod::hold::Hold;
 use crate::rod::joint;
 use crate::rod::lying::Lying;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
-use crate::rod::motion::{Motion, Weights};
+use crate::rod::motion::{Asking, Motion, Weights};
 use crate::rod::pose::PosePath;
 use crate::rod::seabed::Bed;
 use crate::rod::state::Field;
@@ -26,7 +27,7 @@ use crate::rod::touching::Ground;
 use nalgebra::Vector3;
 use std::marker::PhantomData;
 use std::ops::AddAssign;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A discrete line, as far as more is asked of it than a time step needs.
 pub trait Line: System {
@@ -76,6 +77,8 @@ pub struct Rod<S, W, B, D> {
     /// The bed, where it dissipates.
     lying: Option<Lying>,
     surface: Option<Surface>,
+    /// What the waves do in a stage.
+    flows: Option<Mutex<Flows>>,
     joints: Vec<usize>,
     /// Joints that transmit a moment, and their rotational stiffness [N·m].
     stiff_joints: Vec<(usize, f64)>,
@@ -106,7 +109,22 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
         let bed = ground.as_ref().filter(|_| lying.is_none()).map(|ground| Bed::new(ground.plane, &ground.resistance));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e) && !mesh.gaps.contains(e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
-        Rod { mesh, table, water, ground, bed, lying, surface, joints, stiff_joints, supports, laws: PhantomData }
+        let flows = W::WAVES.then(|| {
+            let of = |number: &dyn Fn(usize) -> f64| (0..table.len()).map(number).collect();
+            Mutex::new(Flows::new(of(&|e| table.length_of(e)), of(&|e| table.waterline_of(e))))
+        });
+        Rod { mesh, table, water, ground, bed, lying, surface, flows, joints, stiff_joints, supports, laws: PhantomData }
+    }
+
+    /// The motion of the waves as the stage of a motion has it; none: it is asked for where the line is.
+    fn flows_of(&self, at: &Motion) -> Option<MutexGuard<'_, Flows>> {
+        let (Some(waves), Some(flows)) = (self.water.waves(), &self.flows) else { return None };
+        if at.asking == Asking::Alone {
+            return None;
+        }
+        let mut flows = flows.lock().unwrap_or_else(PoisonError::into_inner);
+        flows.update(waves, at);
+        Some(flows)
     }
 
     /// Forces on tied nodes, which have one position, go to the second of them.
@@ -170,7 +188,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
                 element::scatter_to_nodes(out, e, self.table.length_of(e), &part);
             }
         };
-        element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        let flows = self.flows_of(at);
+        element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), flows.as_deref(), at, out, partly);
+        drop(flows);
         if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
             lying.add_to(ground, &self.table, at, out);
         }

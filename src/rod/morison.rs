@@ -20,7 +20,7 @@ use crate::rod::motion::Weights;
 use crate::rod::stretch::Direction;
 use crate::sea::clock::Clock;
 use crate::sea::current::Current;
-use crate::sea::waves::Waves;
+use crate::sea::waves::{Flow, Waves};
 use nalgebra::Vector3;
 
 /// Coefficients of an element.
@@ -95,6 +95,15 @@ pub trait Water: Clone + Send + Sync + 'static {
     const SHEARED: bool = false;
     /// Motion of the water past a point.
     fn past<F: Real>(&self, cpu: F::Cpu, at: &PointMotion<F>) -> Past<F>;
+    /// The same where the motion of the waves is known.
+    #[inline(always)]
+    fn past_with<F: Real>(&self, cpu: F::Cpu, at: &PointMotion<F>, _: &Flow<F>) -> Past<F> {
+        self.past(cpu, at)
+    }
+    /// The waves, if there are any.
+    fn waves(&self) -> Option<&Waves> {
+        None
+    }
     /// Change of V with height [1/s], waves apart.
     #[inline(always)]
     fn shear<F: Real>(&self, cpu: F::Cpu, _: F) -> Triple<F> {
@@ -179,6 +188,14 @@ impl Water for Sea {
             None => steady,
         }
     }
+    #[inline(always)]
+    fn past_with<F: Real>(&self, cpu: F::Cpu, at: &PointMotion<F>, flow: &Flow<F>) -> Past<F> {
+        let steady = self.current.past(cpu, at);
+        Past { velocity: steady.velocity + flow.velocity, acceleration: flow.acceleration }
+    }
+    fn waves(&self) -> Option<&Waves> {
+        Some(&self.waves)
+    }
     const SHEARED: bool = true;
     #[inline(always)]
     fn shear<F: Real>(&self, cpu: F::Cpu, height: F) -> Triple<F> {
@@ -198,8 +215,13 @@ impl Water for Sea {
 /// Force f of the water on the line per unstretched length [N/m]. About 50 operations and a square root.
 #[inline(always)]
 pub fn force<F: Real, W: Water>(cpu: F::Cpu, water: &W, k: &Coefficients<F>, at: &PointMotion<F>) -> Triple<F> {
+    force_past(water, k, at, water.past(cpu, at))
+}
+
+/// The same where the motion of the water past the line is known.
+#[inline(always)]
+pub fn force_past<F: Real, W: Water>(water: &W, k: &Coefficients<F>, at: &PointMotion<F>, past: Past<F>) -> Triple<F> {
     let t = at.direction.tangent;
-    let past = water.past(cpu, at);
     let (q, a) = (past.velocity, if W::WAVES { at.acceleration - past.acceleration } else { at.acceleration });
     let qt = t.dot(q);
     let qn = t.mul_add(-qt, q);

@@ -4,6 +4,18 @@ use crate::rod::state::Field;
 use crate::sea::clock::Clock;
 use nalgebra::Matrix3;
 
+/// What a question about forces has to do with the one before.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Asking {
+    /// Nothing: the water is asked for its motion where the line is, and what a stage keeps of it stays as it is.
+    #[default]
+    Alone,
+    /// It is the first of a stage.
+    First,
+    /// It is of the same stage, and of the same time.
+    Again,
+}
+
 /// The motion at which forces are asked for.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<'a> {
@@ -19,6 +31,8 @@ pub struct Motion<'a> {
     pub holds: &'a Field,
     /// Rotations from which the rotation vectors of free bodies count.
     pub frames: &'a [Matrix3<f64>],
+    /// What the question has to do with the one before.
+    pub asking: Asking,
 }
 
 /// Weights of the tangent: c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a.

@@ -213,7 +213,7 @@ impl Rigid {
                 for (field, weight) in [(&mut u, weights.u), (&mut v, weights.v), (&mut a, weights.a)] {
                     field.component_mut(column)[0] += weight * by;
                 }
-                let at = Motion { clock: at.clock, u: &u, v: &v, a: &a, holds: at.holds, frames: at.frames };
+                let at = Motion { clock: at.clock, u: &u, v: &v, a: &a, holds: at.holds, frames: at.frames, asking: at.asking };
                 let [force, moment] = alone.residual(&at);
                 for (field, weight) in [(&mut u, weights.u), (&mut v, weights.v), (&mut a, weights.a)] {
                     field.component_mut(column)[0] -= weight * by;

@@ -24,7 +24,8 @@ use crate::algebra::triple::Triple;
 use crate::scene::types::{Environment, Stretching};
 use crate::sea::clock::Clock;
 use crate::sea::drawing::{self, Drawn};
-use crate::sea::near::{Member, Near, Water};
+use crate::sea::layer::{Member, Water};
+use crate::sea::near::Near;
 use crate::sea::series::{DECAYED, cos_sin, decay};
 use crate::sea::stream::Stream;
 use crate::sea::stretching::Level;
@@ -296,6 +297,36 @@ impl Waves {
             Some(flow) => Flow { velocity: velocity + flow.velocity, acceleration: acceleration + flow.acceleration },
             None => Flow { velocity, acceleration },
         })
+    }
+
+    /// Velocities [m/s] and accelerations [m/s²] at `count` places (rows x, y, z [m]; what lies beyond them repeats one).
+    pub fn motions(&self, clock: &Clock, count: usize, places: &[[f64; MOST_LANES]; 3]) -> [[f64; MOST_LANES]; 6] {
+        let mut rows = [[0.0; MOST_LANES]; 6];
+        let (easing, rise) = self.easing(clock);
+        if easing != 0.0 {
+            rows = self.sums_at(count, clock.now, easing, *places);
+            for c in 0..3 {
+                for lane in 0..MOST_LANES {
+                    rows[3 + c][lane] = rows[c][lane] * rise + rows[3 + c][lane] * easing;
+                    rows[c][lane] *= easing;
+                }
+            }
+        }
+        if self.stream.is_some() {
+            // At rest the current is that of the start, as if it had always been.
+            let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
+            let stream = self.streams_at(count, clock.now, places[2]);
+            for (c, (row, stream)) in rows.iter_mut().zip(stream).enumerate() {
+                let share = if c < 3 { 1.0 } else { moving };
+                row.iter_mut().zip(stream).for_each(|(sum, number)| *sum += share * number);
+            }
+        }
+        rows
+    }
+
+    /// Height z below which nothing moves: `floor`, unless there is a current that changes in time.
+    pub fn lowest_motion(&self) -> f64 {
+        if self.stream.is_some() { f64::NEG_INFINITY } else { self.floor() }
     }
 
     /// The current that changes in time at `count` heights.

@@ -549,8 +549,7 @@ impl Group {
 
     /// Motion of one of its bodies now.
     pub fn body(&self, number: usize) -> BodyMotion {
-        let State { clock, u, v, a, holds, frames } = &self.moment.state;
-        let motion = self.network.bodies[number].motion(&crate::rod::motion::Motion { clock: *clock, u, v, a, holds, frames });
+        let motion = self.network.bodies[number].motion(&crate::solve::newton::motion(&self.moment.state));
         let (position, velocity, acceleration) = (motion.position, motion.velocity, motion.acceleration);
         BodyMotion {
             reference: Kinematics { position, velocity, acceleration },

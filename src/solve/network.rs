@@ -12,7 +12,7 @@ use crate::algebra::block_tridiagonal::BlockTridiagonal;
 use crate::algebra::rotation;
 use crate::rod::clamp::Clamp;
 use crate::rod::line::Line;
-use crate::rod::motion::{Motion, Weights};
+use crate::rod::motion::{Asking, Motion, Weights};
 use crate::rod::rigid::Rigid;
 use crate::rod::state::{Field, State};
 use crate::rod::system::{Links, System};
@@ -225,7 +225,7 @@ impl System for Network {
             let (position, velocity, acceleration) = match (arm, self.body_at(master)) {
                 (Some(arm), Some(body)) => {
                     let State { clock, u, v, a, holds, frames } = &*state;
-                    let motion = body.motion(&Motion { clock: *clock, u, v, a, holds, frames });
+                    let motion = body.motion(&Motion { clock: *clock, u, v, a, holds, frames, asking: Asking::Alone });
                     let lever = motion.rotation * arm;
                     let (velocity, acceleration) = motion.at(&lever);
                     (motion.position + lever, velocity, acceleration)
@@ -241,7 +241,7 @@ impl System for Network {
     fn recentre(&self, state: &mut State) {
         for body in &self.bodies {
             let State { clock, u, v, a, holds, frames } = &*state;
-            let motion = body.motion(&Motion { clock: *clock, u, v, a, holds, frames });
+            let motion = body.motion(&Motion { clock: *clock, u, v, a, holds, frames, asking: Asking::Alone });
             if let Some(frame) = state.frames.get_mut(body.frame) {
                 *frame = orthonormal(&motion.rotation);
             }

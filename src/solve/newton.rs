@@ -6,7 +6,7 @@
 
 use crate::algebra::block_tridiagonal::{BlockTridiagonal, Singular};
 use crate::algebra::definite::is_positive_definite;
-use crate::rod::motion::{Motion, Weights};
+use crate::rod::motion::{Asking, Motion, Weights};
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::rod::system::System;
 use crate::solve::memory::{Memory, Shelf};
@@ -290,8 +290,8 @@ impl Newton {
         }
         let (mut last, mut last_loose) = (f64::INFINITY, f64::INFINITY);
         let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
-        for _ in 0..criteria.iterations {
-            self.find_increment(line, trial);
+        for iteration in 0..criteria.iterations {
+            self.find_increment(line, trial, if iteration == 0 { Asking::First } else { Asking::Again });
             let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
             let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
             line.follow(trial);
@@ -370,9 +370,9 @@ impl Newton {
     }
 
     /// J⁻¹ R at a state, with the factor at hand.
-    fn find_increment(&mut self, line: &dyn System, trial: &State) {
+    fn find_increment(&mut self, line: &dyn System, trial: &State, asking: Asking) {
         self.effort.iterations += 1;
-        line.residual(&motion(trial), &mut self.increment);
+        line.residual(&Motion { asking, ..motion(trial) }, &mut self.increment);
         line.gather(&motion(trial), &mut self.increment);
         self.unknowns.solve(line, &mut self.increment);
     }
@@ -427,5 +427,6 @@ fn without(matrix: &mut BlockTridiagonal<COMPONENTS>, across: &Vector3<f64>) {
 
 /// The motion of a state.
 pub fn motion(state: &State) -> Motion<'_> {
-    Motion { clock: state.clock, u: &state.u, v: &state.v, a: &state.a, holds: &state.holds, frames: &state.frames }
+    let State { clock, u, v, a, holds, frames } = state;
+    Motion { clock: *clock, u, v, a, holds, frames, asking: Asking::Alone }
 }
