@@ -82,9 +82,11 @@ pub mod rod {
     pub mod hold;
     pub mod joint;
     pub mod line;
+    pub mod lying;
     pub mod mesh;
     pub mod morison;
     pub mod motion;
+    pub mod parts;
     pub mod physics;
     pub mod pose;
     pub mod properties;

@@ -88,13 +88,14 @@ struct Bed {
 
 const FLAT_DAMPED: Bed = Bed { damping: 100.0, tilt: 0.0, friction: 0.0 };
 
-const BEDS: [Option<Bed>; 6] = [
+const BEDS: [Option<Bed>; 7] = [
     None,
     Some(FLAT_DAMPED),
     Some(Bed { damping: 0.0, tilt: 0.0, friction: 0.0 }),
     Some(Bed { damping: 0.0, tilt: 0.3, friction: 0.0 }),
     Some(Bed { damping: 200.0, tilt: 0.3, friction: 0.0 }),
     Some(Bed { damping: 0.0, tilt: 0.3, friction: 0.6 }),
+    Some(Bed { damping: 150.0, tilt: 0.3, friction: 0.6 }),
 ];
 
 /// All combinations without waves.

@@ -2,15 +2,19 @@
 
 mod support;
 
+use moorline::rod::element::{Table, scatter_to_nodes};
 use moorline::rod::friction::Friction;
+use moorline::rod::line::Supports;
 use moorline::rod::mesh::Mesh;
-use moorline::rod::physics::Surroundings;
+use moorline::rod::motion::Motion;
+use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::properties::Properties;
-use moorline::rod::seabed::Plane;
+use moorline::rod::seabed::{Plane, Resistance};
 use moorline::rod::state::Field;
 use moorline::rod::touching::Ground;
 use moorline::scene::read::{self, Loaded};
 use moorline::scene::types::Scheme;
+use moorline::sea::clock::Clock;
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::Simulation;
 use moorline::solve::snapshot::Snapshot;
@@ -259,4 +263,87 @@ fn the_derivative_of_a_step_knows_what_friction_holds_on_to() {
     };
     let (up, down) = (after(1e-3), after(-1e-3));
     assert_close("tension", exact[0].tension, (up.tension - down.tension) / 2e-3, 1e-6);
+}
+
+/// Elements side by side feel the same bed as one by one: random states of lines that lie all along, in part and not at all, deep in the
+/// bed and at its skin, moving and at rest, on beds with and without dampers, friction and slope. Rounding alone may differ (1e-12 of the largest).
+#[test]
+fn a_bed_is_the_same_for_elements_side_by_side_and_one_by_one() {
+    let mut random = random::Random::new(5);
+    let mut lying = 0;
+    for (damping, mu, tilt) in
+        [(0.0, 0.0, 0.0), (150.0, 0.0, 0.2), (0.0, 0.6, 0.2), (150.0, 0.6, 0.0), (150.0, 0.6, 0.2), (0.0, 0.6, 0.0)]
+    {
+        for laid in (0..20).map(|number| number % 2 == 1) {
+            // Two sections: between them is a joint, which has no length.
+            let (rope, chain) = (material(2.0e4, 12.0, 70.0), material(3.0e4, 20.0, 110.0));
+            let mesh = Mesh::new(vec![rope, chain], &[vec![3.0, 2.0, 4.0, 3.0], vec![2.0, 2.5, 3.5, 1.5, 3.0, 2.0, 4.0]]);
+            let joints: Vec<usize> = (0..mesh.elements.len()).filter(|e| mesh.elements[*e].is_joint()).collect();
+            assert_eq!(joints.len(), 1);
+            let plane = Plane { normal: Vector3::new(-tilt, 0.5 * tilt, 1.0).normalize(), offset: -2.0 };
+            let resistance = Resistance { stiffness: 900.0, damping, onset: 0.08, easing: 0.1 };
+            let friction = (mu > 0.0).then(|| Friction::new(mu, &plane, &mesh));
+            let friction = if laid { friction.map(|friction| friction.laid(&mesh)) } else { friction };
+            let ground = Ground { plane, resistance: vec![resistance; mesh.elements.len()], friction };
+            let around = |ground: Option<Ground>| Surroundings {
+                stretch: moorline::scene::types::Stretch::Exact,
+                current: None,
+                waves: None,
+                ground,
+                surface: None,
+                planar: false,
+            };
+            let line = physics::build(mesh.clone(), around(Some(ground.clone())), Supports::default());
+            let free = physics::build(mesh.clone(), around(None), Supports::default());
+            let mut fields =
+                [Field::new(mesh.nodes()), Field::new(mesh.nodes()), Field::new(mesh.nodes()), Field::new(mesh.nodes())];
+            let depth = 10.0f64.powf(random.between(-3.0, 0.0));
+            for node in 0..mesh.nodes() {
+                let s = mesh.node_arc_length(node);
+                let flat = Vector3::new(s, 0.1 * random.between(-1.0, 1.0), 0.0);
+                let height = depth * random.between(-1.0, 0.3) - plane.height(&flat);
+                fields[0].set_position(node, &(flat + plane.normal * height));
+                let along = (Vector3::x() - plane.normal * plane.normal.x).normalize();
+                fields[0].set_slope(node, &(along + plane.normal * (0.1 * depth * random.between(-1.0, 1.0))));
+                let any = |random: &mut random::Random| Vector3::from_fn(|_, _| random.between(-0.3, 0.3));
+                fields[1].set_position(node, &any(&mut random));
+                fields[1].set_slope(node, &any(&mut random));
+            }
+            for e in &joints {
+                let place = fields[0].position(*e);
+                fields[0].set_position(e + 1, &place);
+            }
+            let mut holds = Field::new(line.holding_nodes());
+            line.hold(&fields[0], &fields[1], &mut holds);
+            if line.holding_nodes() > 0 {
+                for c in 0..6 {
+                    holds.component_mut(c).iter_mut().for_each(|hold| *hold += 0.1 * random.between(-1.0, 1.0));
+                }
+            }
+            let [u, v, a, one_by_one] = &mut fields;
+            let at = Motion { clock: Clock::at_rest(0.0), u, v, a, holds: &holds, frames: &[] };
+            let (mut side_by_side, mut without) = (Field::new(mesh.nodes()), Field::new(mesh.nodes()));
+            line.residual(&at, &mut side_by_side);
+            free.residual(&at, &mut without);
+            side_by_side.add(-1.0, &without);
+            let table = Table::new(&mesh, None);
+            for e in 0..mesh.elements.len() {
+                if let Some(push) = ground.forces(&table, &at, e) {
+                    lying += usize::from(ground.touching_length(&table, u, e) == mesh.elements[e].length);
+                    scatter_to_nodes(one_by_one, e, mesh.elements[e].length, &push);
+                }
+            }
+            for e in &joints {
+                // Forces on tied nodes go to the second of them.
+                one_by_one.set_position(e + 1, &(one_by_one.position(*e) + one_by_one.position(e + 1)));
+                one_by_one.set_position(*e, &Vector3::zeros());
+            }
+            let scale = one_by_one.data().iter().fold(1.0e-9f64, |most, x| most.max(x.abs()));
+            side_by_side.add(-1.0, one_by_one);
+            let error = side_by_side.data().iter().fold(0.0f64, |most, x| most.max(x.abs())) / scale;
+            // What the line itself has (some 1e4 N) rounds to 1e-11 N.
+            assert!(error < 1e-12 + 1e-9 / scale, "damping {damping}, friction {mu}, slope {tilt}: {error:e} of {scale} N");
+        }
+    }
+    assert!(lying > 100, "{lying} elements lay all along");
 }

@@ -460,3 +460,21 @@ fn a_body_at_rest_in_waves_feels_their_acceleration() {
     assert_close("surge", largest.x, exact, 2e-3);
     assert_close("heave", largest.z, exact, 2e-3);
 }
+
+/// A bed that nothing touches changes nothing: clumps and buoys that are thrown up and down far above it move to the bit as over one without
+/// dampers, also where they rise faster than weight over damping, 0.1 to 1.7 m/s here. (The damper fades in with the penetration; faded "in" by a negative one it once pushed up whatever rose.)
+#[test]
+fn a_damped_bed_far_below_is_not_felt() {
+    for (mass, volume, heave) in [(20.0e3, 4.0, 3.0), (500.0, 0.06, 6.0), (900.0, 2.5, 3.0), (1500.0, 0.4, 1.0)] {
+        let run = |damping: f64| {
+            let mut scene = hanging(160.0, 90.0, 60.0, Some(12), json!([{"s": 70.0, "mass": mass, "volume": volume}]));
+            scene["environment"]["seabed"] = json!({"damping": damping});
+            scene["environment"]["depth"] = json!(200.0);
+            scene["motion"] = json!({"kind": "sinusoidal", "period": 6, "sine": [0, 0, heave], "ramp": 3});
+            let (mut line, path) = simulation(&scene);
+            let row = |row: usize| line.advance(0.25 * row as f64, &path).map(|()| line.outputs().tension.to_bits());
+            (1..=40).map(row).collect::<Result<Vec<_>, _>>().unwrap_or_else(|error| panic!("{mass} kg: {error}"))
+        };
+        assert_eq!(run(4.8e4), run(0.0), "{mass} kg, {volume} m³");
+    }
+}

@@ -74,7 +74,9 @@ pub fn into_directory(
     let files = Files::of(directory)?;
     let mut tables = Tables::create(&files, &record, loaded, directory, progress)?;
     tables.vtk = vtk.then(|| vtk::Series::create(&directory.join(PICTURES), &loaded.scene)).transpose()?;
-    let wanted = Wanted { schedule: &schedule, text: true, walls: tables.walls, states: tables.cable.is_some(), stop };
+    let places = loaded.moordyn.as_ref().map_or_else(Vec::new, |deck| moordyn_out::places(deck, &loaded.scene));
+    let (walls, states) = (tables.walls, tables.cable.is_some());
+    let wanted = Wanted { schedule: &schedule, text: true, walls, states, places: &places, stop };
     let outcome = course.run(&wanted, &mut record, &mut tables);
     drop(tables);
     record.ended_by = outcome.err();

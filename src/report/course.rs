@@ -8,6 +8,7 @@ use crate::scene::cable::Job;
 use crate::scene::read::Loaded;
 use crate::scene::state::LineState;
 use crate::scene::types::Scheme;
+use crate::solve::between::Place;
 use crate::solve::departure::{self, Departure};
 use crate::solve::fleet;
 use crate::solve::loads::{BodyOutputs, Pose};
@@ -40,6 +41,8 @@ pub struct Wanted<'a> {
     pub walls: bool,
     /// The state for the files of 1994.
     pub states: bool,
+    /// What it is like at these arc lengths from the fairlead [m], line by line; none of any line where this is empty.
+    pub places: &'a [Vec<f64>],
     /// Whether the user has asked to stop; looked at before every row of every part, on any thread.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -64,6 +67,7 @@ struct Sample {
     /// Where a snapshot is due.
     node_rows: Option<Vec<u8>>,
     state: Option<LineState>,
+    places: Vec<Place>,
 }
 
 /// A part at an output time.
@@ -94,6 +98,7 @@ impl MovingPart {
         let mut line = |(local, index): (usize, usize)| {
             let (outputs, nodes) = (self.part.outputs(local), self.part.nodes(local));
             let time = wanted.schedule.time(row);
+            let wanted_places = wanted.places.get(index).map_or(&[][..], Vec::as_slice);
             Sample {
                 index,
                 outputs,
@@ -102,6 +107,7 @@ impl MovingPart {
                 node_rows: (wanted.text && due).then(|| tables::node_rows(time, &self.names[local], &nodes, wanted.walls)),
                 nodes,
                 state: wanted.states.then(|| self.part.line(local).line_state()),
+                places: if wanted_places.is_empty() { Vec::new() } else { self.part.places(local, wanted_places) },
             }
         };
         let lines = indices.into_iter().enumerate().map(&mut line).collect();
@@ -126,6 +132,8 @@ pub struct Row {
     pub node_rows: Vec<Vec<u8>>,
     /// Of the first line, where a CABLE file is run.
     pub state: Option<LineState>,
+    /// Places of the lines that were asked for.
+    pub places: Vec<Vec<Place>>,
     /// The bodies.
     pub bodies: Vec<BodyOutputs>,
     /// The free points [m].
@@ -149,6 +157,7 @@ impl Row {
             row.cells.push(line.cells);
             row.node_rows.extend(line.node_rows);
             row.state = row.state.or(line.state);
+            row.places.push(line.places);
         }
         row.bodies = hung.bodies(time, &poses, &row.outputs);
         points.sort_by_key(|(index, _)| *index);
@@ -198,6 +207,7 @@ impl Course {
             follower.row(record, number, row)?;
             record.add_row(row.time, &row.outputs, &row.nodes);
             record.add_bodies(&row.bodies, &row.points);
+            record.add_places(&row.places);
             record.count(&row.counters);
             if number.is_multiple_of(schedule.rows_per_snapshot()) {
                 follower.snapshot(row)?;

@@ -1,10 +1,41 @@
 //! The output file that a MoorDyn file asks for: its channels over time, a line of names, a line of units, a row for every output time.
 
 use crate::report::record::Record;
-use crate::scene::moordyn::outputs::Quantity;
-use crate::scene::moordyn::words::{LineEnd, Side};
-use crate::scene::moordyn::{Deck, DeckBody, DeckLine, deck_attitude};
+use crate::scene::moordyn::outputs::{Kind, Quantity, Spot};
+use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
+use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, deck_attitude};
+use crate::scene::types::Scene;
+use crate::solve::between::Place;
 use std::fmt::Write;
+
+/// Arc lengths from the fairlead [m] of the nodes that a deck asks for, line by line of its scene.
+pub fn places(deck: &Deck, scene: &Scene) -> Vec<Vec<f64>> {
+    let mut places = vec![Vec::new(); scene.lines.len()];
+    for channel in &deck.outputs {
+        let Quantity::OfLine(id, spot, _) = channel.quantity else { continue };
+        let index = scene.lines.iter().position(|line| line.name == DeckLine::name_of(id));
+        if let Some((index, s)) = index.and_then(|index| Some((index, place(deck, id, spot, scene.lines[index].length())?))) {
+            places[index].push(s);
+        }
+    }
+    for places in &mut places {
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+    }
+    places
+}
+
+/// Where along a line of a length [m] a node is; none: the line has no such node.
+fn place(deck: &Deck, id: u32, spot: Spot, length: f64) -> Option<f64> {
+    match spot {
+        Spot::End(Side::A) => Some(length),
+        Spot::End(Side::B) => Some(0.0),
+        Spot::Node(node) => {
+            let segments = deck.lines.iter().find(|line| line.id == id)?.segments;
+            (node as usize <= segments).then(|| length * (1.0 - f64::from(node) / segments.max(1) as f64))
+        }
+    }
+}
 
 /// The text of the file; none: the deck asks for nothing.
 pub fn text(record: &Record, deck: &Deck) -> Option<String> {
@@ -42,6 +73,33 @@ fn column(record: &Record, deck: &Deck, quantity: Quantity) -> Option<Vec<f64>> 
                 Side::B => row.fairlead[axis],
             };
             Some(line(id)?.rows.iter().map(place).collect())
+        }
+        Quantity::OfLine(id, spot, kind) => {
+            let line = line(id)?;
+            let s = place(deck, id, spot, line.length)?;
+            let index = line.places.first()?.iter().position(|place| place.s == s)?;
+            let value = |place: &Place| match kind {
+                Kind::Position(axis) => place.position[axis],
+                Kind::Velocity(axis) => place.velocity[axis],
+                Kind::Acceleration(axis) => place.acceleration[axis],
+                Kind::Tension => place.force.norm(),
+            };
+            Some(line.places.iter().map(|places| value(&places[index])).collect())
+        }
+        Quantity::OnPoint(id, axis) => {
+            // What is free has its own weight and inertia in balance with its lines: there is nothing to write.
+            let held = |point: &&DeckPoint| point.id == id && point.attachment != Attachment::Free;
+            deck.points.iter().find(held)?;
+            let ends = deck.lines.iter().flat_map(|line| {
+                line.ends.iter().enumerate().filter(|(_, end)| **end == LineEnd::Point(id)).map(|(end, _)| (line.id, end))
+            });
+            let mut sum = vec![0.0; record.times.len()];
+            for (of, end) in ends {
+                for (sum, row) in sum.iter_mut().zip(&line(of)?.rows) {
+                    *sum += if end == 0 { row.anchor_force[axis] } else { row.force[axis] };
+                }
+            }
+            Some(sum)
         }
         Quantity::Point(id, axis) => {
             // A point is where the lines end that lead to it.

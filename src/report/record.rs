@@ -7,6 +7,7 @@ use crate::report::units::{ForceUnit, sim_time};
 use crate::scene::bodies::{Body, BodyMotion, Point, PointMotion};
 use crate::scene::types::{LineType, Motion, Scene};
 use crate::sea::drawing;
+use crate::solve::between::Place;
 use crate::solve::loads::BodyOutputs;
 use crate::solve::simulation::{Counters, NodeOutput, Outputs, StaticsReport};
 use nalgebra::Vector3;
@@ -84,6 +85,8 @@ pub struct LineRecord {
     pub rows: Vec<Outputs>,
     /// Nodes at the times of the snapshots.
     pub snapshots: Vec<Vec<NodeOutput>>,
+    /// At the times of the rows, places that somebody asked for.
+    pub places: Vec<Vec<Place>>,
     /// Work done by the solver.
     pub counters: Counters,
     /// Cycles at both ends of every section whose type has a T–N curve.
@@ -196,6 +199,13 @@ impl Record {
         }
     }
 
+    /// Adds the places of lines that were asked for, of the row that was added last.
+    pub fn add_places(&mut self, places: &[Vec<Place>]) {
+        for (line, places) in self.lines.iter_mut().zip(places).filter(|(_, places)| !places.is_empty()) {
+            line.places.push(places.clone());
+        }
+    }
+
     /// Adds a row: time [s], and each line's outputs and nodes then.
     pub fn add_row(&mut self, time: f64, outputs: &[Outputs], nodes: &[Vec<NodeOutput>]) {
         self.times.push(time);
@@ -295,6 +305,7 @@ impl LineRecord {
             equilibrium: Vec::new(),
             rows: Vec::new(),
             snapshots: Vec::new(),
+            places: Vec::new(),
             counters: Counters::default(),
             fatigue: ends_with_curve(scene, index),
             parts: parts_with_breaking_load(scene, index, &scene.line_types),

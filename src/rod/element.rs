@@ -126,7 +126,7 @@ impl Table {
         self.data[property as usize * self.stride + e]
     }
 
-    fn rows(&self) -> Rows<'_> {
+    pub(in crate::rod) fn rows(&self) -> Rows<'_> {
         Rows { data: &self.data, stride: self.stride }
     }
 
@@ -401,7 +401,7 @@ pub fn scatter_to_nodes(out: &mut Field, e: usize, length: f64, sum: &[Triple<f6
 /// The same for elements from `e` on. Lanes meet at nodes, so the left ends are added first, then the right ends. Lanes beyond the
 /// last element hold zeros, since all their properties are zero.
 #[inline(always)]
-fn add_to_nodes<F: Real>(cpu: F::Cpu, out: &mut Field, e: usize, length: F, sum: &[Triple<F>; 4]) {
+pub(in crate::rod) fn add_to_nodes<F: Real>(cpu: F::Cpu, out: &mut Field, e: usize, length: F, sum: &[Triple<F>; 4]) {
     let stride = out.stride();
     let data = out.data_mut();
     let ends = [(sum[0], 0, e), (sum[1] * length, 3, e), (sum[2], 0, e + 1), (sum[3] * length, 3, e + 1)];

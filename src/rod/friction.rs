@@ -91,9 +91,31 @@ impl Friction {
     pub fn laid(mut self, mesh: &Mesh) -> Friction {
         self.coefficient /= 1.0 + MARGIN;
         for (e, grip) in self.grips.iter_mut().enumerate() {
-            grip.stiffness = mesh.properties_of(e).ea / (BLUR * mesh.elements[e].length).powi(2);
+            let length = mesh.elements[e].length;
+            // A joint has no length and holds on to nothing.
+            grip.stiffness = if length > 0.0 { mesh.properties_of(e).ea / (BLUR * length).powi(2) } else { 0.0 };
         }
         self
+    }
+
+    /// Largest friction over push [-].
+    pub fn coefficient(&self) -> f64 {
+        self.coefficient
+    }
+
+    /// Two unit vectors along the bed, at right angles.
+    pub fn axes(&self) -> [Vector3<f64>; 2] {
+        self.axes
+    }
+
+    /// k_t of element `e` [Pa].
+    pub fn stiffness(&self, e: usize) -> f64 {
+        self.grips[e].stiffness
+    }
+
+    /// k_t for which r_h of element `e` is kept [Pa].
+    pub fn kept(&self, e: usize) -> f64 {
+        self.grips[e].kept
     }
 
     /// δ of the thinnest element [m].

@@ -13,6 +13,7 @@ use crate::rod::element::{self, Table};
 use crate::rod::element_tangent;
 use crate::rod::hold::Hold;
 use crate::rod::joint;
+use crate::rod::lying::Lying;
 use crate::rod::mesh::Mesh;
 use crate::rod::morison::Water;
 use crate::rod::motion::{Motion, Weights};
@@ -70,7 +71,10 @@ pub struct Rod<S, W, B, D> {
     table: Table,
     water: W,
     ground: Option<Ground>,
+    /// The bed, where it is of springs alone.
     bed: Option<Bed>,
+    /// The bed, where it dissipates.
+    lying: Option<Lying>,
     surface: Option<Surface>,
     joints: Vec<usize>,
     /// Joints that transmit a moment, and their rotational stiffness [N·m].
@@ -98,10 +102,11 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
     /// A line of a mesh in given surroundings.
     pub fn new(mesh: Mesh, water: W, ground: Option<Ground>, surface: Option<Surface>, supports: Supports) -> Self {
         let table = Table::new(&mesh, surface.as_ref().map(|_| water.lowest_surface()));
-        let bed = ground.as_ref().map(|ground| Bed::new(ground.plane, &ground.resistance, ground.friction.is_some()));
+        let lying = ground.as_ref().and_then(Lying::new);
+        let bed = ground.as_ref().filter(|_| lying.is_none()).map(|ground| Bed::new(ground.plane, &ground.resistance));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e) && !mesh.gaps.contains(e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
-        Rod { mesh, table, water, ground, bed, surface, joints, stiff_joints, supports, laws: PhantomData }
+        Rod { mesh, table, water, ground, bed, lying, surface, joints, stiff_joints, supports, laws: PhantomData }
     }
 
     /// Forces on tied nodes, which have one position, go to the second of them.
@@ -128,7 +133,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
     fn element_forces(&self, at: &Motion, e: usize) -> [Triple<f64>; 4] {
         let acting = element::forces::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, e);
         let mut sum = acting.ends;
-        for part in self.partial_forces(at, e, acting.touching > 0.0, acting.dry > 0.0).into_iter().flatten() {
+        for part in
+            self.partial_forces(at, e, acting.touching > 0.0 || self.lying.is_some(), acting.dry > 0.0).into_iter().flatten()
+        {
             (0..4).for_each(|k| sum[k] = sum[k] + part[k]);
         }
         sum
@@ -164,6 +171,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
             }
         };
         element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
+            lying.add_to(ground, &self.table, at, out);
+        }
         for &(e, kappa) in &self.stiff_joints {
             let (p, q) = (at.u.slope(e), at.u.slope(e + 1));
             out.set_slope(e, &(out.slope(e) + joint::moment(kappa, &p, &q)));
@@ -233,8 +243,8 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
     }
 
     fn hold(&self, u: &Field, v: &Field, holds: &mut Field) {
-        if let Some(ground) = &self.ground {
-            ground.hold(&self.table, u, v, holds);
+        if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
+            lying.hold(ground, &self.table, u, v, holds);
         }
     }
 }
@@ -268,6 +278,9 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Line for Rod<S, W, B, D> {
             }
         };
         element::end_forces::<S, W, B>(&self.table, &self.water, self.bed.as_ref(), at, out, partly);
+        if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
+            lying.add_to_ends(ground, &self.table, at, out);
+        }
         out[0] = -out[0];
         for &e in &self.joints {
             let acted_on = self.mesh.points.contains(&e);

@@ -1,16 +1,17 @@
-//! The bed on elements that touch it in part, or with damping or friction.
+//! The bed on elements that touch it in part, and the tangent of the bed.
 //!
-//! The fast loop knows no more of the bed than its springs under elements that lie on it all along; the rest is added here.
+//! The fast loop takes the elements that lie on the bed all along (`lying`); the rest is added here.
 
 use crate::algebra::block_tridiagonal::BlockTridiagonal;
-use crate::algebra::polynomial::{Cubic, Interval, Intervals};
-use crate::algebra::shape::{GAUSS3, GAUSS4, GaussPoint, SHAPES3, SHAPES4, Shape};
+use crate::algebra::polynomial::{Cubic, Intervals};
+use crate::algebra::shape::{GAUSS3, GAUSS4, SHAPES3, SHAPES4, Shape};
 use crate::algebra::triple::Triple;
 use crate::rod::element::Table;
 use crate::rod::element_tangent::ElementTangent;
 use crate::rod::ends::Ends;
 use crate::rod::friction::{Contact, Friction};
 use crate::rod::motion::{Motion, Weights};
+use crate::rod::parts::{PART_WEIGHTS, points_on};
 use crate::rod::seabed::{self, Plane, Resistance, projector};
 use crate::rod::state::Field;
 use crate::rod::stretch::Direction;
@@ -117,17 +118,15 @@ impl Ground {
         }
     }
 
-    /// Moves the places of the bed to which the line holds on after a step to these positions and velocities.
-    pub fn hold(&self, table: &Table, u: &Field, v: &Field, holds: &mut Field) {
-        let Some(friction) = &self.friction else { return };
-        for e in (0..table.len()).filter(|e| !table.is_joint(*e)) {
-            let length = table.length_of(e);
-            let u = Ends::gather(u, e, length);
-            let profiles = friction.profiles(&u);
-            for (g, push) in self.on_parts(&u, || Ends::gather(v, e, length), e).into_iter().enumerate() {
-                let hold = friction.hold(e, &contact(&profiles, push, (e, g), holds));
-                (0..2).for_each(|c| holds.component_mut(2 * g + c)[e] = hold[c]);
-            }
+    /// Moves the places of the bed to which element `e` holds on after a step to these positions and velocities.
+    pub fn hold(&self, table: &Table, u: &Field, v: &Field, e: usize, holds: &mut Field) {
+        let Some(friction) = self.friction.as_ref().filter(|_| !table.is_joint(e)) else { return };
+        let length = table.length_of(e);
+        let u = Ends::gather(u, e, length);
+        let profiles = friction.profiles(&u);
+        for (g, push) in self.on_parts(&u, || Ends::gather(v, e, length), e).into_iter().enumerate() {
+            let hold = friction.hold(e, &contact(&profiles, push, (e, g), holds));
+            (0..2).for_each(|c| holds.component_mut(2 * g + c)[e] = hold[c]);
         }
     }
 
@@ -240,32 +239,4 @@ fn add_product(products: &mut [[f64; 4]; 4], scale: f64, a: &[f64; 4], b: &[f64;
     for k in 0..4 {
         (0..4).for_each(|l| products[k][l] += scale * a[k] * b[l]);
     }
-}
-
-/// Ends of the three parts of an element that hold on to the bed, each at a Gauss point: as long as the points weigh.
-const PARTS: [f64; 4] = [0.0, 5.0 / 18.0, 13.0 / 18.0, 1.0];
-
-/// Integrals of the shape functions over each part of an element of unit length, by three Gauss points, which are exact.
-const PART_WEIGHTS: [[f64; 4]; 3] = [part_weights(0), part_weights(1), part_weights(2)];
-
-const fn part_weights(g: usize) -> [f64; 4] {
-    let (from, width) = (PARTS[g], PARTS[g + 1] - PARTS[g]);
-    let (mut sum, mut point) = ([0.0; 4], 0);
-    while point < 3 {
-        let value = Shape::at(from + width * GAUSS3[point].x).value;
-        let mut k = 0;
-        while k < 4 {
-            sum[k] += width * GAUSS3[point].weight * value[k];
-            k += 1;
-        }
-        point += 1;
-    }
-    sum
-}
-
-/// Quadrature points of an interval as far as it lies in part `g` of an element.
-fn points_on(interval: Interval, g: usize) -> impl Iterator<Item = GaussPoint> {
-    let (from, to) = (interval.from.max(PARTS[g]), interval.to.min(PARTS[g + 1]));
-    let width = (to - from).max(0.0);
-    GAUSS3.iter().map(move |point| GaussPoint { x: from + width * point.x, weight: width * point.weight })
 }

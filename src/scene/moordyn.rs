@@ -17,7 +17,7 @@ use crate::algebra::rotation;
 use crate::scene::types::Triple;
 use nalgebra::Vector3;
 use options::Options;
-use outputs::Channel;
+use outputs::{Channel, Quantity, Spot};
 use words::{Attachment, LineEnd};
 
 /// A MoorDyn file. Every row keeps its line in the text, from 1.
@@ -184,6 +184,33 @@ pub struct DeckLine {
     pub length: f64,
     /// Number of segments.
     pub segments: usize,
+}
+
+impl Deck {
+    /// Why a column that is asked for will be missing; none: it will be there.
+    fn cannot_write(&self, channel: &Channel) -> Option<String> {
+        let why = |reason: &str| Some(format!("OUTPUTS: {}: not written: {reason}", channel.name));
+        let line = |id: u32| self.lines.iter().find(|line| line.id == id);
+        let leads_to = |id: u32| self.lines.iter().any(|line| line.ends.contains(&LineEnd::Point(id)));
+        match channel.quantity {
+            Quantity::Tension(id, _) | Quantity::EndOfLine(id, ..) | Quantity::OfLine(id, ..) if line(id).is_none() => {
+                why("there is no such line")
+            }
+            Quantity::OfLine(id, Spot::Node(node), _) if line(id).is_some_and(|line| node as usize > line.segments) => {
+                why("the line has fewer nodes; they count from 0 at end A to NumSegs")
+            }
+            Quantity::Point(id, _) | Quantity::OnPoint(id, _) if !leads_to(id) => why("no line leads to such a point"),
+            Quantity::OnPoint(id, _)
+                if self.points.iter().any(|point| point.id == id && point.attachment == Attachment::Free) =>
+            {
+                why("on a free point the forces are in balance; see the tensions of its lines")
+            }
+            Quantity::Body(id, _) | Quantity::Turn(id, _) if !self.bodies.iter().any(|body| body.id == id) => {
+                why("there is no such body")
+            }
+            _ => None,
+        }
+    }
 }
 
 impl DeckLine {

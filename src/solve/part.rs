@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::scene::read::Loaded;
+use crate::solve::between::Place;
 use crate::solve::group::Group;
 use crate::solve::loads::Pose;
 use crate::solve::motion::Ends;
@@ -77,6 +78,14 @@ impl Part {
         match self {
             Part::Alone { simulation, .. } => simulation.nodes(),
             Part::Group(group) => group.nodes(local),
+        }
+    }
+
+    /// What one of its lines is like now at arc lengths from its fairlead [m].
+    pub fn places(&mut self, local: usize, at: &[f64]) -> Vec<Place> {
+        match self {
+            Part::Alone { simulation, .. } => simulation.places(at),
+            Part::Group(group) => group.places(local, at),
         }
     }
 

@@ -83,7 +83,7 @@ pub fn run<'py>(
         let started = Instant::now();
         let mut course = Course::new(&loaded)?;
         record.statics_seconds = started.elapsed().as_secs_f64();
-        let wanted = Wanted { schedule: &schedule, text: false, walls: false, states: false, stop: &|| false };
+        let wanted = Wanted { schedule: &schedule, text: false, walls: false, states: false, places: &[], stop: &|| false };
         course.run(&wanted, &mut record, &mut attended)
     });
     if let Some(error) = attended.raised {

@@ -119,6 +119,16 @@ def test_a_scene_that_kills_its_workers_is_a_row(client):
     assert "died" in str(found.message.values[1])
 
 
+def test_a_sweep_does_not_wait_for_ever_for_workers(monkeypatch):
+    monkeypatch.setattr("moorline._sweep._PATIENCE", 0.5)
+    with (
+        distributed.LocalCluster(n_workers=0, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as nobody,
+        pytest.raises(moorline.Error, match="no worker has been there for"),
+    ):
+        moorline.sweep(None, {"motion.period": [10.0]}, changes=SHORT, client=nobody)
+
+
 def test_a_sweep_that_is_cut_goes_on_where_it_was(client, tmp_path):
     """The program is killed half way; how often a row ran is counted by files."""
     store, counted = tmp_path / "store", tmp_path / "counted"

@@ -52,6 +52,7 @@ pub fn read(text: &str, file: &str, directory: &Path) -> Result<Reading, Error> 
     let (outputs, unknown) = outputs::read(reader.section(Kind::Outputs));
     warnings.extend(unknown);
     let deck = Deck { title: sections.title.clone(), line_types, rod_types, bodies, rods, points, lines, options, outputs };
+    warnings.extend(deck.outputs.iter().filter_map(|channel| deck.cannot_write(channel)));
     Ok(Reading { deck, warnings })
 }
 

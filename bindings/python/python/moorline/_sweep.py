@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import itertools
 import json
@@ -38,6 +39,10 @@ _LOOKED = 10_000
 """Most combinations of which one is to be an allowed scene."""
 _MESSAGE = 400
 """Longest message that is kept."""
+_PATIENCE = 300.0
+"""How long a sweep waits for a worker where there is none [s]."""
+_LOOK = 5.0
+"""How often it looks whether there are workers while nothing comes back [s]."""
 _AXES = {"axis": ["x", "y", "z"], "angle": ["roll", "pitch", "yaw"]}
 
 
@@ -342,6 +347,7 @@ def _drive(
         told()
         fill()
         while given:
+            _wait(client, list(given))
             future = next(arrived)
             rows = given.pop(future)
             block, failure = None, Exception()
@@ -371,6 +377,25 @@ def _drive(
                 give([suspects.pop()])
     finally:
         client.cancel(list(given))
+
+
+def _wait(client: Any, futures: list[Any]) -> None:
+    """Until one of them has come; not for ever where nobody works on them."""
+    from distributed import wait
+
+    there = time.monotonic()
+    while True:
+        try:
+            wait(futures, timeout=min(_LOOK, _PATIENCE), return_when="FIRST_COMPLETED")
+            return
+        except asyncio.TimeoutError:
+            if client.nthreads():
+                there = time.monotonic()
+            elif time.monotonic() - there >= _PATIENCE:
+                raise Error(
+                    f"no worker has been there for {_PATIENCE:.0f} s; what has run is kept in the store, if one was given: start workers and"
+                    " run the same sweep again, and it goes on from there"
+                ) from None
 
 
 def _killed(failure: Any) -> Block:
