@@ -195,6 +195,7 @@ pub mod fmi {
     pub mod resource;
     pub mod segment;
     pub mod snapshot;
+    pub mod swing;
     pub mod variables;
     pub mod vessel;
     pub mod warnings;

@@ -29,6 +29,8 @@ struct Ship {
     waves: Six,
     drift: Six,
     fairleads: [Vector3<f64>; 4],
+    /// Waves of nine periods from 6.5 to 16 s instead.
+    irregular: bool,
 }
 
 impl Ship {
@@ -50,15 +52,26 @@ impl Ship {
         let drift = Six::from([2.0e5, 1.0e5, 0.0, 0.0, 0.0, 0.0]) * (mass / 20.0e6).powf(0.67);
         let corner = |x: f64, y: f64| Vector3::new(0.45 * length * x, 0.45 * breadth * y, 0.0);
         let fairleads = [corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, 1.0), corner(-1.0, -1.0)];
-        Ship { inertia, damping, stiffness, waves, drift, fairleads }
+        Ship { inertia, damping, stiffness, waves, drift, fairleads, irregular: false }
     }
 
     /// Loads of the sea at a time.
     fn loads(&self, time: f64) -> Six {
         let s = (time / RAMP).min(1.0);
-        let (wave, slow) = (std::f64::consts::TAU / 9.0 * time, std::f64::consts::TAU / 90.0 * time);
+        let slow = std::f64::consts::TAU / 90.0 * time;
         let phases = [0.0, 0.7, 1.6, 0.9, 2.2, 0.3];
-        Six::from_fn(|k, _| s * s * (3.0 - 2.0 * s) * (self.waves[k] * (wave + phases[k]).sin() + self.drift[k] * slow.sin()))
+        let wave = |period: f64, phase: f64| (std::f64::consts::TAU / period * time + phase).sin();
+        let waves = |k: usize| match self.irregular {
+            false => wave(9.0, phases[k]),
+            true => (0..9)
+                .map(|number| {
+                    let period = 6.5 * 1.12f64.powi(number);
+                    let height = 0.45 * (-((period - 9.5) / 2.5).powi(2)).exp();
+                    height * wave(period, phases[k] + 2.4 * f64::from(number * number))
+                })
+                .sum(),
+        };
+        Six::from_fn(|k, _| s * s * (3.0 - 2.0 * s) * (self.waves[k] * waves(k) + self.drift[k] * slow.sin()))
     }
 
     fn acceleration(&self, time: f64, q: &Six, v: &Six, lines: &Six) -> Six {
@@ -205,8 +218,7 @@ struct Recipe {
 /// Rows at multiples of 0.05 s or of the step, whichever is longer: time, the four tensions, kinetic energy.
 struct Played(Vec<(f64, [f64; 4], f64)>);
 
-fn play(mass: f64, recipe: Recipe) -> Result<Played, String> {
-    let ship = Ship::new(mass);
+fn play(ship: &Ship, recipe: Recipe) -> Result<Played, String> {
     let mut lines = Lines::new(recipe.mode);
     let (mut q, mut v) = (Six::zeros(), Six::zeros());
     // What the lines pull with at rest is part of the ship's trim.
@@ -223,9 +235,9 @@ fn play(mass: f64, recipe: Recipe) -> Result<Played, String> {
         let start = (q, v);
         if order == Order::ShipFirst {
             ship.step(time, step, &mut q, &mut v, &ahead);
-            lines.set(&ship, &q, &v, velocities)?;
+            lines.set(ship, &q, &v, velocities)?;
         } else {
-            lines.set(&ship, &start.0, &start.1, velocities)?;
+            lines.set(ship, &start.0, &start.1, velocities)?;
         }
         lines.step(time, step)?;
         let forces = lines.forces();
@@ -265,38 +277,69 @@ fn errors(found: &Result<Played, String>, exact: &Played) -> Option<[f64; 3]> {
     Some([100.0 * (square / size).sqrt(), 100.0 * worst / most, 100.0 * (energy / energies - 1.0)])
 }
 
-fn reference(mass: f64) -> Played {
-    play(mass, Recipe { order: Order::Together, mode: Mode::Auto, velocities: true, step: 0.0025, foresees: true })
+fn reference(ship: &Ship) -> Played {
+    play(ship, Recipe { order: Order::Together, mode: Mode::Auto, velocities: true, step: 0.0025, foresees: true })
         .expect("the reference")
 }
 
 const STEPS: [f64; 14] = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.45, 0.5, 0.55, 0.6, 0.8, 1.0, 1.5, 2.0];
 
-/// 20 000 t in steps as masters take them, ship and lines each from what the other was: at 0.1 s within 0.25 % rms, up to 0.5 s within 1 % and 5 % at
-/// most (0.6 s: 1.3 %), energy within 1 %; the error grows with the step and with nothing else. Without care for what the vessel answers, 0.4 to
-/// 0.55 s swung with five times the step at 8 to 29 %.
+/// Ship and lines each from what the other was, bars in percent rms by step: at most four times that.
+fn led(ship: &Ship, exact: &Played, velocities: bool, bars: &[(f64, f64)]) -> Vec<f64> {
+    let mut found = bars.to_vec();
+    fleet::for_each(&mut found, |(step, bar)| {
+        let recipe = Recipe { order: Order::Together, mode: Mode::Auto, velocities, step: *step, foresees: false };
+        let [rms, most, energy] = errors(&play(ship, recipe), exact).expect("a ship that stays");
+        println!("{step} s: {rms:.2} % rms, {most:.1} % at most, energy {energy:+.1} %");
+        let bars = rms < *bar && most < (4.0 * *bar).min(5.0) && energy.abs() < 1.0;
+        assert!(bars, "{step} s: {rms} % rms, {most} % at most, energy {energy} %");
+        rms
+    })
+}
+
+/// 20 000 t in steps as masters take them: at 0.1 s within 0.25 % rms, up to 0.6 s within 1 % (by the bars below 0.8 %) and 5 % at most, energy within 1 %; the
+/// error grows with the step and with nothing else. Without care for what the vessel answers, 0.4 to 0.55 s swung with
+/// five times the step at 8 to 29 %; without the term of a swing, 0.6 s had 1.2 %, 1 s 4.1 %.
 #[test]
 fn a_moored_ship_is_led_as_well_as_its_steps_allow() {
-    let exact = reference(20.0e6);
-    let mut before = 0.0;
-    for (step, bar) in [(0.1, 0.25), (0.2, 1.0), (0.35, 1.0), (0.5, 1.0), (0.6, 1.3), (0.8, 3.0)] {
-        let recipe = Recipe { order: Order::Together, mode: Mode::Auto, velocities: true, step, foresees: false };
-        let [rms, most, energy] = errors(&play(20.0e6, recipe), &exact).expect("a ship that stays");
-        println!("{step} s: {rms:.2} % rms, {most:.1} % at most, energy {energy:+.1} %");
-        assert!(rms < bar && most < 5.0 && energy.abs() < 1.0, "{step} s: {rms} % rms, {most} % at most, energy {energy} %");
-        assert!(rms > before, "{step} s: {rms} %, a shorter step {before} %");
-        before = rms;
-    }
+    let bars = [
+        (0.05, 0.25),
+        (0.1, 0.25),
+        (0.2, 0.25),
+        (0.3, 0.6),
+        (0.35, 0.6),
+        (0.4, 0.6),
+        (0.45, 0.6),
+        (0.5, 0.6),
+        (0.55, 0.8),
+        (0.6, 0.8),
+        (0.8, 1.2),
+        (1.0, 2.0),
+    ];
+    let ship = Ship::new(20.0e6);
+    let exact = reference(&ship);
+    let found = led(&ship, &exact, true, &bars);
+    assert!(found.is_sorted(), "not monotonic in the step: {found:?}");
+    // Positions alone.
+    led(&ship, &exact, false, &[(0.1, 0.25), (0.3, 0.6), (0.4, 0.6), (0.5, 0.8), (0.6, 1.0)]);
+}
+
+/// The term of a swing is not made for one period: a sea of many.
+#[test]
+fn a_moored_ship_is_led_in_an_irregular_sea() {
+    let ship = Ship { irregular: true, ..Ship::new(20.0e6) };
+    led(&ship, &reference(&ship), true, &[(0.1, 0.4), (0.3, 1.0), (0.4, 1.0), (0.5, 1.0), (0.6, 1.1)]);
 }
 
 /// The ship first, with the forces of the last step, the lines after it, `delay` to where it is by then: one pass, no zigzag, and within 0.6 % rms
 /// up to 0.5 s, 1.1 % at 1 s.
 #[test]
 fn a_ship_that_goes_first_leads_its_lines_exactly() {
-    let exact = reference(20.0e6);
+    let ship = Ship::new(20.0e6);
+    let exact = reference(&ship);
     for (step, bar) in [(0.1, 0.25), (0.5, 0.6), (1.0, 1.2)] {
         let recipe = Recipe { order: Order::ShipFirst, mode: Mode::Delay, velocities: true, step, foresees: false };
-        let [rms, most, _] = errors(&play(20.0e6, recipe), &exact).expect("a ship that stays");
+        let [rms, most, _] = errors(&play(&ship, recipe), &exact).expect("a ship that stays");
         assert!(rms < bar && most < 2.0 * bar, "{step} s: {rms} % rms, {most} % at most");
     }
 }
@@ -306,7 +349,8 @@ fn a_ship_that_goes_first_leads_its_lines_exactly() {
 fn the_map() {
     let mut text = String::new();
     for mass in [0.5e6, 2.0e6, 20.0e6, 200.0e6] {
-        let exact = reference(mass);
+        let ship = Ship::new(mass);
+        let exact = reference(&ship);
         let range = exact.0.iter().flat_map(|row| row.1).fold((f64::INFINITY, 0.0f64), |(a, b), t| (a.min(t), b.max(t)));
         let _ = writeln!(text, "\n{:.0} t, tensions from {:.0} to {:.0} kN\n", mass / 1e3, range.0 / 1e3, range.1 / 1e3);
         let recipes = [
@@ -326,7 +370,7 @@ fn the_map() {
             let mut cells: Vec<(f64, String)> = STEPS.map(|step| (step, String::new())).to_vec();
             fleet::for_each(&mut cells, |(step, cell)| {
                 let recipe = Recipe { order, mode, velocities, step: *step, foresees };
-                let played = play(mass, recipe);
+                let played = play(&ship, recipe);
                 *cell = errors(&played, &exact)
                     .map_or("–".into(), |[rms, most, energy]| format!("{rms:.2} / {most:.1} / {energy:+.0}"));
             });

@@ -1,7 +1,7 @@
 //! The path of the fairlead between communication points.
 //!
 //! At a communication point t the master gives position x and velocity v; the FMU has to move the fairlead to t + h before it learns more.
-//!     p(τ) = E(τ) + c₀ b₀(τ/B) + c₁ B b₁(τ/B),   B = 3 h (h at h = 0.1 s, 0.1 s below),   τ = time - t
+//!     p(τ) = E(τ) + c₀ b₀(τ/B) + c₁ B b₁(τ/B),   B = 4 h (3 h where velocities are held; h at h = 0.1 s, 0.1 s below),   τ = time - t
 //! E  extrapolation [m]: starts at x with slope v; its curvature comes from the velocities sent so far (or, where a master never sends
 //!    velocities, or such as are not those of its positions, from the positions), by the polynomial through up to five of them, or from input
 //!    derivatives where they are set. Where the inputs are held from an earlier point (`freshness`), E of that point goes on;
@@ -9,12 +9,13 @@
 //! b₀ = 1 - 3s² + 2s³, b₁ = s - 2s² + s³  cubic Hermite shapes, which fade the correction out over B without a jump in p or p'.
 //!
 //! High orders are exact on smooth motion and wild after a jump or on jitter, so the order is the one that would have foretold the last
-//! values best from those before. All of it is linear in the inputs once order and nodes are chosen, which makes the path differentiable.
+//! values best from those before; instead of the highest, the term of a swing is added (`swing`). All of it is linear in the inputs once order and nodes are chosen, which makes the path differentiable.
 
 use crate::fmi::fit::{Fit, Point};
 use crate::fmi::freshness::{Age, Pace};
 use crate::fmi::inputs::Inputs;
 use crate::fmi::segment::{Segment, TERMS, Terms, hermite, shifted, through_present};
+use crate::fmi::swing;
 use crate::fmi::variables::Interpolation;
 use nalgebra::Vector3;
 
@@ -22,12 +23,15 @@ use nalgebra::Vector3;
 const SHORTEST_BLEND: f64 = 0.1;
 /// A correction is absorbed over up to this many steps: kinks at the communication points would ring in the line, whose axial waves take
 /// about a second to the anchor and back, and in a vessel that answers. Measured in tests/coupling.rs.
-const LONGEST: f64 = 3.0;
+const LONGEST: f64 = 4.0;
 /// So many more steps per second of a step beyond `SHORTEST_BLEND` [1/s].
-const LENGTHENING: f64 = 10.0;
+const LENGTHENING: f64 = 13.0;
+/// Both where velocities are held, whose corrections are larger.
+const HELD_LONGEST: f64 = 3.0;
+const HELD_LENGTHENING: f64 = 10.0;
 /// An extrapolation through more than this many past velocities (one more past position) must foretell better by `DOUBT` for each of the others: what alternates
 /// in the motion of a vessel that answers, it makes larger, and that then stays so much less than what it misses.
-const MODEST: i32 = 2;
+const MODEST: usize = 2;
 /// See `MODEST`.
 const DOUBT: f64 = 4.0;
 /// Samples closer together than this are thinned out [s]: the memory must reach back over several long steps after many short ones.
@@ -170,6 +174,8 @@ impl Plan {
 struct Nodes {
     indices: [usize; SPACED_NODES],
     count: usize,
+    /// How the motion swings, as far as `swing` knows [1/s²].
+    swing: f64,
 }
 
 impl Nodes {
@@ -217,7 +223,8 @@ impl InputPath {
                 let wanted = sources.map(|source| source.past() == Some(by_position));
                 if wanted.contains(&true) {
                     let mut nodes = self.spaced_nodes(time - lag, step, &wanted);
-                    nodes.count = self.smooth(nodes.as_slice(), time - lag, inputs, &wanted, by_position, interpolation);
+                    (nodes.count, nodes.swing) =
+                        self.smooth(nodes.as_slice(), time - lag, inputs, &wanted, by_position, interpolation);
                     if by_position && self.pace.is_slower() && self.axes.is_some_and(|axes| irregular(&axes, &wanted)) {
                         nodes.count = nodes.count.min(1);
                     }
@@ -242,7 +249,11 @@ impl InputPath {
         if held || interpolation == Interpolation::Extrapolate {
             return whole.max(if held { 0.0 } else { SHORTEST_BLEND });
         }
-        (whole * (1.0 + LENGTHENING * (whole - SHORTEST_BLEND)).clamp(1.0, LONGEST)).max(SHORTEST_BLEND)
+        let (lengthening, longest) = match interpolation {
+            Interpolation::HoldVelocity => (HELD_LENGTHENING, HELD_LONGEST),
+            _ => (LENGTHENING, LONGEST),
+        };
+        (whole * (1.0 + lengthening * (whole - SHORTEST_BLEND)).clamp(1.0, longest)).max(SHORTEST_BLEND)
     }
 
     /// How old fresh values are [s], where the vessel's points are not all points of the line, which shows in times between values that differ:
@@ -366,7 +377,8 @@ impl InputPath {
     /// present one foretell the future. Not simply all of them: a polynomial through five values makes a jitter 31 times larger, and a vessel
     /// that answers to the line's force sends it back.
     ///
-    /// What the polynomial through values 1 … m misses of value 0 is f[t₀, …, tₘ]·Π(t₀ - tⱼ), with the divided difference f[…].
+    /// What the polynomial through values 1 … m misses of value 0 is f[t₀, …, tₘ]·Π(t₀ - tⱼ), with the divided difference f[…]. The last that is free of
+    /// `DOUBT` has the term of a swing, whose measure is returned as well [1/s²].
     fn smooth(
         &self,
         nodes: &[usize],
@@ -375,8 +387,9 @@ impl InputPath {
         wanted: &[bool; 3],
         by_position: bool,
         interpolation: Interpolation,
-    ) -> usize {
+    ) -> (usize, f64) {
         let doubt: f64 = if interpolation == Interpolation::Extrapolate { 1.0 } else { DOUBT };
+        let modest = MODEST + usize::from(by_position);
         let most = if by_position { POSITION_NODES } else { VELOCITY_NODES };
         let on_axes = |value: [f64; 3]| Vector3::from_fn(|axis, _| if wanted[axis] { value[axis] } else { 0.0 });
         let now = if by_position { inputs.values[0] } else { std::array::from_fn(|axis| inputs.velocity(axis)) };
@@ -390,25 +403,36 @@ impl InputPath {
         let noticeable = if by_position { -NOTICEABLE * times[1] } else { NOTICEABLE };
         let count = nodes.len() + 1;
         let values = differences;
-        let (mut changed, mut best, mut least) = (0.0, 0, f64::INFINITY);
+        let (mut changed, mut best, mut least) = (0.0, (0, 0.0), f64::INFINITY);
+        // The differences of the two orders before.
+        let mut lower = [values; 2];
         for order in 1..count.min(most + 1) {
+            lower = [lower[1], differences];
             for first in 0..count - order {
                 let slope = (differences[first] - differences[first + 1]) / (times[first] - times[first + order]);
                 differences[first] = slope;
             }
-            let missed = |first: usize| {
-                let distances = times[first + 1..=first + order].iter().map(|time| times[first] - time);
-                differences[first].norm() * distances.product::<f64>()
+            let reach = |first: usize| times[first + 1..=first + order].iter().map(|time| times[first] - time).product::<f64>();
+            let turn = |first: usize| lower[0][first + 1] * (reach(first) / (order * (order - 1)) as f64);
+            let known = (1..=FORETOLD).take_while(|first| first + order < count);
+            let swing = if interpolation == Interpolation::Auto && order == modest + 1 {
+                swing::square(known.clone().map(|first| (differences[first] * reach(first), turn(first))), -times[1])
+            } else {
+                0.0
+            };
+            let missed = |first: usize| match swing {
+                0.0 => differences[first].norm() * reach(first),
+                _ => (differences[first] * reach(first) + turn(first) * swing).norm(),
             };
             changed += (values[order - 1] - values[order]).norm();
             if 1 + order >= count {
                 break;
             }
-            let past = (1..=FORETOLD).take_while(|first| first + order < count).map(missed);
+            let past = known.map(missed);
             let present = Some(missed(0)).filter(|miss| *miss > noticeable).map_or(0.0, |miss| PRESENT_VOICE * miss);
-            let worst = past.fold(present, f64::max) * doubt.powi((order as i32 - 1 - MODEST - i32::from(by_position)).max(0));
+            let worst = past.fold(present, f64::max) * doubt.powi((order - 1).saturating_sub(modest) as i32);
             if worst < least && (order == 1 || missed(0) <= SMOOTH * changed) {
-                (best, least) = (order - 1, worst);
+                (best, least) = ((order - 1, swing), worst);
             }
         }
         best
@@ -548,15 +572,19 @@ fn build(plan: &Plan, targets: &[Terms; 3], ended: ([f64; 3], [f64; 3])) -> Segm
 
 /// E(τ) on one axis from a position on, by power.
 fn extrapolation(plan: &Plan, inputs: &Inputs, samples: &[Sample], position: f64, axis: usize, by_position: bool) -> Terms {
+    let Nodes { swing, .. } = plan.nodes[usize::from(by_position)];
     let nodes = plan.nodes[usize::from(by_position)].as_slice();
     let time = plan.time - plan.lag;
     if by_position {
         let past = nodes.iter().map(|&index| (samples[index].time - time, samples[index].position[axis]));
-        return shifted(&through_present(&[position], past), plan.lag);
+        return shifted(&swing::through(position, past, swing), plan.lag);
     }
     let (terms, known) = inputs.velocity_terms(axis);
     let past = nodes.iter().map(|&index| (samples[index].time - time, samples[index].velocity[axis]));
-    let velocity = through_present(&terms[..known], past.take(VELOCITY_NODES - known));
+    let velocity = match known {
+        1 => swing::through(terms[0], past.take(VELOCITY_NODES - known), swing),
+        _ => through_present(&terms[..known], past.take(VELOCITY_NODES - known)),
+    };
     let mut integral = [position, 0.0, 0.0, 0.0, 0.0, 0.0];
     for power in 1..TERMS {
         integral[power] = velocity[power - 1] / power as f64;
