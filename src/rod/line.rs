@@ -86,6 +86,9 @@ pub struct Rod<S, W, B, D> {
     laws: PhantomData<(S, B, D)>,
 }
 
+/// So many waves cost less to ask in every iteration than to keep.
+const FEW: usize = 2;
+
 /// What holds a line and what pulls at its nodes besides its own loads.
 #[derive(Debug, Clone, Default)]
 pub struct Supports {
@@ -109,7 +112,7 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
         let bed = ground.as_ref().filter(|_| lying.is_none()).map(|ground| Bed::new(ground.plane, &ground.resistance));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e) && !mesh.gaps.contains(e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
-        let flows = W::WAVES.then(|| {
+        let flows = water.waves().is_some_and(|waves| waves.components() > FEW).then(|| {
             let of = |number: &dyn Fn(usize) -> f64| (0..table.len()).map(number).collect();
             Mutex::new(Flows::new(of(&|e| table.length_of(e)), of(&|e| table.waterline_of(e))))
         });
