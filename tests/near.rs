@@ -175,18 +175,18 @@ fn answers_do_not_depend_on_what_was_asked_before() {
     }
 }
 
-/// A sea of components, and the same with one of a hundredth of a micrometre across it, which has them summed one by one.
+/// A sea of components, and the same with each turned by a millionth of a degree from the one before, which has them summed one by one.
 fn scene(components: &[Wave], judge: bool) -> String {
-    let mut list: Vec<String> = components
+    let turn = if judge { 1e-6 } else { 0.0 };
+    let list: Vec<String> = components
         .iter()
-        .map(|wave| {
+        .enumerate()
+        .map(|(n, wave)| {
             let (period, phase) = (std::f64::consts::TAU / wave.omega, wave.phase.to_degrees());
-            format!(r#"{{"amplitude": {}, "period": {period}, "direction_deg": 30, "phase_deg": {phase}}}"#, wave.amplitude)
+            let (amplitude, direction) = (wave.amplitude, 30.0 + turn * n as f64);
+            format!(r#"{{"amplitude": {amplitude}, "period": {period}, "direction_deg": {direction}, "phase_deg": {phase}}}"#)
         })
         .collect();
-    if judge {
-        list.push(String::from(r#"{"amplitude": 1e-8, "period": 10, "direction_deg": 100}"#));
-    }
     let mut text: serde_json::Value =
         serde_json::from_str(include_str!("../examples/lindahl-sjoberg.json")).expect("the example");
     let waves = format!(r#"{{"kind": "components", "ramp": 5, "components": [{}]}}"#, list.join(","));
@@ -224,7 +224,8 @@ fn a_line_feels_the_same_sea_and_a_state_put_back_the_same_bits() {
     }
     let error = (error / sum).sqrt();
     println!("error of the tension {error:.1e}");
-    assert!(error > 0.0 && error < 1e-4, "{error}");
+    // Not as small as rounding: cells against cells would be.
+    assert!(error > 1e-8 && error < 1e-4, "{error}");
     let end = by_cells.outputs();
     assert!(by_cells.restore(&saved.expect("half way")));
     for n in 101..=200 {

@@ -59,7 +59,8 @@ mod tests {
     #[test]
     fn the_next_value_of_a_swing_is_foretold_exactly() {
         for (h, omega) in [(0.1, 1.0), (0.5, 0.9), (1.0, 1.0)] {
-            let square = (2.0 * (0.5 * omega * h as f64).sin() / h).powi(2);
+            let half: f64 = 0.5 * omega * h;
+            let square = (2.0 * half.sin() / h).powi(2);
             let about_a_mean = |t: f64| 3.0 + 2.0 * (omega * t + 0.4).sin();
             let about_a_line = |t: f64| about_a_mean(t) - 0.7 * t;
             let found = [
