@@ -1,7 +1,7 @@
 //! The path of the fairlead between communication points.
 //!
 //! At a communication point t the master gives position x and velocity v; the FMU has to move the fairlead to t + h before it learns more.
-//!     p(τ) = E(τ) + c₀ b₀(τ/B) + c₁ B b₁(τ/B),   B = 4 h (3 h where velocities are held; h at h = 0.1 s, 0.1 s below),   τ = time - t
+//!     p(τ) = E(τ) + c₀ b₀(τ/B) + c₁ B b₁(τ/B),   B = 4 h (3 h where velocities are held or derivatives set; h at h = 0.1 s, 0.1 s below),   τ = time - t
 //! E  extrapolation [m]: starts at x with slope v; its curvature comes from the velocities sent so far (or, where a master never sends
 //!    velocities, or such as are not those of its positions, from the positions), by the polynomial through up to five of them, or from input
 //!    derivatives where they are set. Where the inputs are held from an earlier point (`freshness`), E of that point goes on;
@@ -26,7 +26,7 @@ const SHORTEST_BLEND: f64 = 0.1;
 const LONGEST: f64 = 4.0;
 /// So many more steps per second of a step beyond `SHORTEST_BLEND` [1/s].
 const LENGTHENING: f64 = 13.0;
-/// Both where velocities are held, whose corrections are larger.
+/// Both where velocities are held, whose corrections are larger, and where the master sets derivatives, which need few corrections.
 const HELD_LONGEST: f64 = 3.0;
 const HELD_LENGTHENING: f64 = 10.0;
 /// An extrapolation through more than this many past velocities (one more past position) must foretell better by `DOUBT` for each of the others: what alternates
@@ -216,7 +216,7 @@ impl InputPath {
     pub fn plan(&self, interpolation: Interpolation, time: f64, step: f64, inputs: &Inputs) -> Plan {
         let given = self.velocity_given || inputs.gives_velocity();
         let sources = std::array::from_fn(|axis| self.source(interpolation, time, step, inputs, axis, given));
-        let (blend, lag) = (self.blend(interpolation, time, step, &sources), self.lag(time, inputs, &sources));
+        let (blend, lag) = (self.blend(interpolation, time, step, inputs, &sources), self.lag(time, inputs, &sources));
         let mut plan = Plan { time, step, interpolation, sources, nodes: Default::default(), blend, lag };
         if interpolation != Interpolation::HoldVelocity && !self.outdated_by(inputs) {
             for by_position in [false, true] {
@@ -236,7 +236,7 @@ impl InputPath {
     }
 
     /// Over how long the correction is absorbed [s]: over the time up to the next fresh values, of which the step may be a part.
-    fn blend(&self, interpolation: Interpolation, time: f64, step: f64, sources: &[Source; 3]) -> f64 {
+    fn blend(&self, interpolation: Interpolation, time: f64, step: f64, inputs: &Inputs, sources: &[Source; 3]) -> f64 {
         let held = !sources.iter().any(|source| matches!(source, Source::Velocities | Source::Positions));
         let ahead = match &self.axes {
             Some(_) if held => self.absorbed - time,
@@ -249,10 +249,8 @@ impl InputPath {
         if held || interpolation == Interpolation::Extrapolate {
             return whole.max(if held { 0.0 } else { SHORTEST_BLEND });
         }
-        let (lengthening, longest) = match interpolation {
-            Interpolation::HoldVelocity => (HELD_LENGTHENING, HELD_LONGEST),
-            _ => (LENGTHENING, LONGEST),
-        };
+        let careful = interpolation == Interpolation::HoldVelocity || (0..3).any(|axis| inputs.has_derivatives(axis));
+        let (lengthening, longest) = if careful { (HELD_LENGTHENING, HELD_LONGEST) } else { (LENGTHENING, LONGEST) };
         (whole * (1.0 + lengthening * (whole - SHORTEST_BLEND)).clamp(1.0, longest)).max(SHORTEST_BLEND)
     }
 
