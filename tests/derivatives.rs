@@ -10,7 +10,7 @@ use moorline::rod::friction::Friction;
 use moorline::rod::hold::{self, Hold};
 use moorline::rod::line::{Line, Supports};
 use moorline::rod::mesh::{Mesh, Part};
-use moorline::rod::motion::{Asking, Motion, Weights};
+use moorline::rod::motion::Weights;
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::properties::Properties;
 use moorline::rod::seabed::{Plane, Resistance};
@@ -22,7 +22,7 @@ use moorline::sea::current::Current;
 use moorline::sea::wave::Wave;
 use moorline::sea::waves::Waves;
 use moorline::solve::motion::Path;
-use moorline::solve::newton::Newton;
+use moorline::solve::newton::{Newton, motion};
 use moorline::solve::simulation::Simulation;
 use nalgebra::Vector3;
 use support::*;
@@ -206,18 +206,7 @@ fn state_of(line: &dyn Line, stretched: f64, noise: f64, random: &mut Random) ->
 
 fn residual(line: &dyn Line, state: &State) -> Field {
     let mut out = Field::new(line.mesh().nodes());
-    line.residual(
-        &Motion {
-            clock: state.clock,
-            u: &state.u,
-            v: &state.v,
-            a: &state.a,
-            holds: &state.holds,
-            frames: &[],
-            asking: Asking::Alone,
-        },
-        &mut out,
-    );
+    line.residual(&motion(state), &mut out);
     out
 }
 
@@ -229,20 +218,7 @@ fn error(line: &dyn Line, state: &State, weights: &Weights, random: &mut Random,
 
 fn error_along(line: &dyn Line, state: &State, weights: &Weights, direction: &Field, d: f64) -> f64 {
     let mut matrix = BlockTridiagonal::new(line.mesh().ties());
-    line.tangent(
-        &Motion {
-            clock: state.clock,
-            u: &state.u,
-            v: &state.v,
-            a: &state.a,
-            holds: &state.holds,
-            frames: &[],
-            asking: Asking::Alone,
-        },
-        weights,
-        None,
-        &mut matrix,
-    );
+    line.tangent(&motion(state), weights, None, &mut matrix);
     let product = times(&matrix, direction);
     let moved = |sign: f64| {
         let mut moved = state.clone();
@@ -421,15 +397,7 @@ fn tangent_of_bodies_and_holds_is_the_change_of_the_residual() {
             worst = worst.max(error);
         }
         let mut newton = Newton::new(line.as_ref());
-        let at = Motion {
-            clock: state.clock,
-            u: &state.u,
-            v: &state.v,
-            a: &state.a,
-            holds: &state.holds,
-            frames: &[],
-            asking: Asking::Alone,
-        };
+        let at = motion(&state);
         newton.factor(line.as_ref(), &at, &Weights { u: 1.0, v: 0.0, a: 50.0 }, None).expect("regular");
         let mut step = residual(line.as_ref(), &state);
         newton.solve_linear(line.as_ref(), &mut step);

@@ -6,12 +6,12 @@ use moorline::algebra::block_tridiagonal::BlockTridiagonal;
 use moorline::rod::elasticity::{Elasticity, Pressures};
 use moorline::rod::line::Supports;
 use moorline::rod::mesh::Mesh;
-use moorline::rod::motion::{Asking, Motion, Weights};
+use moorline::rod::motion::Weights;
 use moorline::rod::physics::{self, Surroundings};
 use moorline::rod::state::State;
 use moorline::scene::read;
 use moorline::scene::types::Stretch;
-use moorline::sea::clock::Clock;
+use moorline::solve::newton::motion;
 use moorline::solve::simulation::{NodeOutput, Simulation};
 use nalgebra::{SVector, Vector3};
 use std::path::Path;
@@ -112,29 +112,10 @@ fn tangent_of_a_table_is_the_change_of_the_residual() {
         }
         let residual = |state: &State| {
             let mut out = state.u.clone();
-            line.residual(
-                &Motion {
-                    clock: Clock::default(),
-                    u: &state.u,
-                    v: &state.v,
-                    a: &state.a,
-                    holds: &state.holds,
-                    frames: &[],
-                    asking: Asking::Alone,
-                },
-                &mut out,
-            );
+            line.residual(&motion(state), &mut out);
             out
         };
-        let at = Motion {
-            clock: Clock::default(),
-            u: &state.u,
-            v: &state.v,
-            a: &state.a,
-            holds: &state.holds,
-            frames: &[],
-            asking: Asking::Alone,
-        };
+        let at = motion(&state);
         let mut matrix = BlockTridiagonal::new(line.mesh().ties());
         line.tangent(&at, &Weights { u: 1.0, v: 0.0, a: 0.0 }, None, &mut matrix);
         let x: Vec<SVector<f64, 6>> = (0..4).map(|node| SVector::from_fn(|c, _| ((node * 7 + c * 3) % 5) as f64 - 2.0)).collect();

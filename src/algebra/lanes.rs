@@ -71,14 +71,6 @@ impl<V: Simd, D: Dimension> Real for Lanes<V, D> {
     }
 }
 
-impl<V: Simd, D: Dimension> Lanes<V, D> {
-    /// The sum of all lanes, in the order that suits the processor.
-    #[inline(always)]
-    pub fn sum(self) -> f64 {
-        self.cpu.reduce_sum_f64s(self.x)
-    }
-}
-
 impl<V: Simd, D: Dimension> Add for Lanes<V, D> {
     type Output = Self;
     #[inline(always)]

@@ -4,14 +4,14 @@
 
 use crate::algebra::dimension::Spatial;
 use crate::algebra::lanes::Lanes;
-use crate::algebra::real::{MOST_LANES, Real, padded};
+use crate::algebra::real::{MOST_LANES, Real};
 use crate::algebra::shape::{GAUSS3, GAUSS4, SHAPES3, SHAPES4};
 use crate::algebra::triple::Triple;
 use crate::rod::element::{self, Batch, Property, Table};
 use crate::rod::ends::Ends;
 use crate::rod::motion::Motion;
 use crate::rod::parts::{PART_MEANS, PART_POINTS};
-use crate::rod::seabed::{PRODUCTS, Plane};
+use crate::rod::seabed::{self, Depth, PRODUCTS, Plane, combined};
 use crate::rod::state::{COMPONENTS, Field};
 use crate::rod::touching::Ground;
 use nalgebra::Vector3;
@@ -51,11 +51,7 @@ impl Lying {
         if !damped && ground.friction.is_none() {
             return None;
         }
-        let row = |of: &dyn Fn(usize) -> f64| {
-            let mut row = vec![0.0; padded(resistance.len() + 1) + MOST_LANES];
-            row.iter_mut().zip(0..resistance.len()).for_each(|(to, e)| *to = of(e));
-            row
-        };
+        let row = |of: &dyn Fn(usize) -> f64| seabed::row(resistance.len(), of);
         let dampers = damped
             .then(|| Dampers { damping: row(&|e| resistance[e].damping), per_easing: row(&|e| resistance[e].easing.recip()) });
         let rough = ground.friction.as_ref().map(|friction| Rough {
@@ -90,20 +86,6 @@ impl Lying {
         }
     }
 
-    /// Elements from `e` on, by their ends.
-    #[inline(always)]
-    fn look<F: Real>(&self, cpu: F::Cpu, u: &Ends<F>, e: usize) -> Look<F> {
-        let level = F::load(cpu, &self.onset, e) + self.plane.offset;
-        let g = u.control_values(&self.plane.normal);
-        // Penetrations at the Bézier control points.
-        let control = [level - g[0], level - g[1], level - g[2], level - g[3]];
-        Look {
-            most: control[0].max(control[1]).max(control[2].max(control[3])),
-            least: control[0].min(control[1]).min(control[2].min(control[3])),
-            p: [control[0], (control[1] - control[0]) * 3.0, control[3], (control[3] - control[2]) * 3.0],
-        }
-    }
-
     /// What resists the penetration of elements from `e` on.
     #[inline(always)]
     fn pushed<F: Real>(&self, cpu: F::Cpu, v: &[&[f64]; COMPONENTS], length: F, p: [F; 4], e: usize) -> Pushed<F> {
@@ -126,15 +108,6 @@ impl Lying {
         }
         pushed
     }
-}
-
-/// How elements lie.
-struct Look<F> {
-    /// Largest and smallest penetration of the control points [m].
-    most: F,
-    least: F,
-    /// End values and slopes of the penetration [m].
-    p: [F; 4],
 }
 
 /// What resists a penetration.
@@ -282,15 +255,15 @@ impl<K: Sink> WithSimd for Forces<'_, K> {
             let batch = Batch::<Lanes<V, Spatial>> { cpu, rows, e };
             let (length, measure) = (batch.get(Property::Length), batch.get(Property::Measure));
             let u = Ends::load(cpu, &positions, e, length);
-            let look = lying.look(cpu, &u, e);
-            let (most, least) = (look.most * measure, look.least * measure);
+            let depth = Depth::of(cpu, &lying.plane, &lying.onset, &u, e);
+            let (most, least) = (depth.most * measure, depth.least * measure);
             if !most.any_positive() {
                 continue;
             }
             let count = V::F64_LANES.min(table.len() - e);
             if least.any_positive() {
                 let grounded = measure * least.positive();
-                let pushed = lying.pushed(cpu, &velocities, length, look.p, e);
+                let pushed = lying.pushed(cpu, &velocities, length, depth.ends(), e);
                 let pushes = pushed.on_ends(cpu);
                 let mut sum = [Triple::zero(cpu); 4];
                 for k in 0..4 {
@@ -345,8 +318,8 @@ impl WithSimd for Holds<'_> {
             let batch = Batch::<Lanes<V, Spatial>> { cpu, rows, e };
             let (length, measure) = (batch.get(Property::Length), batch.get(Property::Measure));
             let ends = Ends::load(cpu, &positions, e, length);
-            let look = lying.look(cpu, &ends, e);
-            let (most, least) = (look.most * measure, look.least * measure);
+            let depth = Depth::of(cpu, &lying.plane, &lying.onset, &ends, e);
+            let (most, least) = (depth.most * measure, depth.least * measure);
             let (per_kept, grounded) = (Lanes::<V, Spatial>::load(cpu, &rough.per_kept, e), least.positive());
             let part = in_part(most, least);
             // What touches in part stays as it is for now; what is no element holds on to nothing.
@@ -361,7 +334,7 @@ impl WithSimd for Holds<'_> {
                 }
                 continue;
             }
-            let pushed = lying.pushed(cpu, &velocities, length, look.p, e);
+            let pushed = lying.pushed(cpu, &velocities, length, depth.ends(), e);
             for g in 0..3 {
                 let push = pushed.on_part(cpu, g) * grounded;
                 let [place, friction] = rough.grip(cpu, &ends, &holds.rows(), push, g, e);
@@ -386,10 +359,4 @@ impl WithSimd for Holds<'_> {
 #[inline(always)]
 fn in_part<F: Real>(most: F, least: F) -> F {
     most * (-least.positive() + 1.0)
-}
-
-/// Σ a_k b_k.
-#[inline(always)]
-fn combined<F: Real>(a: &[f64; 4], b: &[F; 4]) -> F {
-    b[0].scale_add(a[0], b[1].scale_add(a[1], b[2].scale_add(a[2], b[3] * a[3])))
 }

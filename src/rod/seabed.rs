@@ -120,6 +120,49 @@ pub fn grounded_push(stiffness: f64, length: f64, p: &[f64; 4]) -> [f64; 4] {
     PRODUCTS.map(|row| scale * (0..4).map(|l| row[l] * p[l]).sum::<f64>())
 }
 
+/// A row with one number per element, padded for batches.
+pub fn row(count: usize, of: impl Fn(usize) -> f64) -> Vec<f64> {
+    let mut row = vec![0.0; padded(count + 1) + MOST_LANES];
+    row.iter_mut().zip(0..count).for_each(|(to, e)| *to = of(e));
+    row
+}
+
+/// Σ a_k b_k.
+#[inline(always)]
+pub fn combined<F: Real>(a: &[f64; 4], b: &[F; 4]) -> F {
+    b[0].scale_add(a[0], b[1].scale_add(a[1], b[2].scale_add(a[2], b[3] * a[3])))
+}
+
+/// How deep elements are in the bed, side by side.
+#[derive(Debug, Clone, Copy)]
+pub struct Depth<F> {
+    /// Penetrations at the Bézier control points [m].
+    control: [F; 4],
+    /// Largest of them [m].
+    pub most: F,
+    /// Smallest of them [m].
+    pub least: F,
+}
+
+impl<F: Real> Depth<F> {
+    /// Of elements from `e` on in a plane, with a row of onsets δ_0 [m].
+    #[inline(always)]
+    pub fn of(cpu: F::Cpu, plane: &Plane, onset: &[f64], u: &Ends<F>, e: usize) -> Depth<F> {
+        let level = F::load(cpu, onset, e) + plane.offset;
+        let control = u.control_values(&plane.normal).map(|g| level - g);
+        let most = control[0].max(control[1]).max(control[2].max(control[3]));
+        let least = control[0].min(control[1]).min(control[2].min(control[3]));
+        Depth { control, most, least }
+    }
+
+    /// End values and slopes [m].
+    #[inline(always)]
+    pub fn ends(&self) -> [F; 4] {
+        let c = &self.control;
+        [c[0], (c[1] - c[0]) * 3.0, c[3], (c[3] - c[2]) * 3.0]
+    }
+}
+
 /// A bed of springs alone, as the fast loop sees it: rows with one number per element. One that dissipates is in `lying`.
 #[derive(Debug, Clone)]
 pub struct Bed {
@@ -131,12 +174,8 @@ pub struct Bed {
 impl Bed {
     /// A plane of springs under each element.
     pub fn new(plane: Plane, resistance: &[Resistance]) -> Bed {
-        let row = |property: fn(&Resistance) -> f64| {
-            let mut row = vec![0.0; padded(resistance.len() + 1) + MOST_LANES];
-            row.iter_mut().zip(resistance).for_each(|(to, resistance)| *to = property(resistance));
-            row
-        };
-        Bed { plane, onset: row(|r| r.onset), stiffness: row(|r| r.stiffness) }
+        let count = resistance.len();
+        Bed { plane, onset: row(count, |e| resistance[e].onset), stiffness: row(count, |e| resistance[e].stiffness) }
     }
 
     /// Adds the push on those elements from `e` on that touch the bed all along; returns a number that is positive
@@ -144,20 +183,16 @@ impl Bed {
     #[inline(always)]
     pub fn add_grounded<F: Real>(&self, cpu: F::Cpu, u: &Ends<F>, measure: F, e: usize, sum: &mut [Triple<F>; 4]) -> F {
         let normal = &self.plane.normal;
-        // Penetrations at the Bézier control points.
-        let level = F::load(cpu, &self.onset, e) + self.plane.offset;
-        let control = u.control_values(normal).map(|g| level - g);
-        let most = control[0].max(control[1]).max(control[2].max(control[3]));
-        let least = control[0].min(control[1]).min(control[2].min(control[3]));
-        if most.any_positive() {
-            let grounded = least.step();
+        let depth = Depth::of(cpu, &self.plane, &self.onset, u, e);
+        if depth.most.any_positive() {
+            let grounded = depth.least.step();
             let scale = F::load(cpu, &self.stiffness, e) * measure * grounded * (-1.0 / 420.0);
-            let p = [control[0], (control[1] - control[0]) * 3.0, control[3], (control[3] - control[2]) * 3.0];
+            let p = depth.ends();
             for (sum, row) in sum.iter_mut().zip(&PRODUCTS) {
-                let push = scale * p[0].scale_add(row[0], p[1].scale_add(row[1], p[2].scale_add(row[2], p[3] * row[3])));
+                let push = scale * combined(row, &p);
                 *sum = Triple::splat(cpu, normal).mul_add(push, *sum);
             }
-            return most.min(-least) * measure;
+            return depth.most.min(-depth.least) * measure;
         }
         F::splat(cpu, 0.0)
     }

@@ -289,10 +289,8 @@ impl Waves {
         if self.stream.is_none() {
             return waves;
         }
-        let [vx, vy, vz, ax, ay, az] = &self.streams_at(F::LANES, clock.now, place.z.lanes());
-        // At rest the current is that of the start, as if it had always been.
-        let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
-        let (velocity, acceleration) = (Triple::load(cpu, [vx, vy, vz], 0), Triple::load(cpu, [ax, ay, az], 0).scale(moving));
+        let [vx, vy, vz, ax, ay, az] = &self.streams_at(F::LANES, clock, place.z.lanes());
+        let (velocity, acceleration) = (Triple::load(cpu, [vx, vy, vz], 0), Triple::load(cpu, [ax, ay, az], 0));
         Some(match waves {
             Some(flow) => Flow { velocity: velocity + flow.velocity, acceleration: acceleration + flow.acceleration },
             None => Flow { velocity, acceleration },
@@ -313,12 +311,8 @@ impl Waves {
             }
         }
         if self.stream.is_some() {
-            // At rest the current is that of the start, as if it had always been.
-            let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
-            let stream = self.streams_at(count, clock.now, places[2]);
-            for (c, (row, stream)) in rows.iter_mut().zip(stream).enumerate() {
-                let share = if c < 3 { 1.0 } else { moving };
-                row.iter_mut().zip(stream).for_each(|(sum, number)| *sum += share * number);
+            for (row, stream) in rows.iter_mut().zip(self.streams_at(count, clock, places[2])) {
+                row.iter_mut().zip(stream).for_each(|(sum, number)| *sum += number);
             }
         }
         rows
@@ -331,11 +325,14 @@ impl Waves {
 
     /// The current that changes in time at `count` heights.
     #[inline(never)]
-    fn streams_at(&self, count: usize, time: f64, heights: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 6] {
+    fn streams_at(&self, count: usize, clock: &Clock, heights: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 6] {
         let mut rows = [[0.0; MOST_LANES]; 6];
+        // At rest the current is that of the start, as if it had always been.
+        let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
         for (lane, z) in heights.into_iter().enumerate().take(count) {
             let Some(stream) = &self.stream else { break };
-            let (v, a): (Triple<f64>, Triple<f64>) = stream.flow((), time, z);
+            let (v, a): (Triple<f64>, Triple<f64>) = stream.flow((), clock.now, z);
+            let a = a * moving;
             rows.iter_mut().zip([v.x, v.y, v.z, a.x, a.y, a.z]).for_each(|(row, number)| row[lane] = number);
         }
         rows
