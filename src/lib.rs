@@ -153,6 +153,7 @@ pub mod solve {
     pub mod motion;
     pub mod network;
     pub mod newton;
+    pub mod open_lines;
     pub mod outputs;
     pub mod part;
     pub mod partition;

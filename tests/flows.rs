@@ -69,6 +69,9 @@ impl System for Forgetful<'_> {
     fn residual(&self, at: &Motion, out: &mut Field) {
         self.0.residual(&Motion { asking: Asking::Alone, ..*at }, out);
     }
+    fn residual_of(&self, at: &Motion, runs: &[(usize, usize)], out: &mut Field) {
+        self.0.residual_of(&Motion { asking: Asking::Alone, ..*at }, runs, out);
+    }
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
         self.0.tangent(at, weights, geometric, matrix);
     }

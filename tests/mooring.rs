@@ -1,6 +1,8 @@
 //! The mooring as a whole: driven bodies, stiffness, networks and free bodies against laws, closed forms and a monolithic integration.
 
 use moorline::rod::pose::PosePath;
+use moorline::scene::bodies::Mount;
+use moorline::scene::motion_file::Table;
 use moorline::scene::read::{self, Loaded};
 use moorline::solve::group::{EndOf, Group};
 use moorline::solve::loads;
@@ -345,4 +347,75 @@ fn ends_of_a_group_follow_the_paths_that_are_set() {
     }
     assert_eq!(one.outputs(0), other.outputs(0));
     assert!((one.outputs(0).fairlead - ends[0].fairlead.at(5.0).position).norm() < 1e-12 && TAU > 6.0);
+}
+
+/// Points in a row, each held by a rope to the bed, joined by ropes to the next, the first by a rope to a ship that moves.
+fn farm(points: usize) -> Value {
+    let rope = json!({"ea": 2e8, "mass": 30.0, "diameter": 0.14, "submerged_weight": 140.0, "drag": {"normal": 1.2}, "added_mass": {"normal": 1.0}});
+    let (mut lines, mut held) = (Vec::new(), Vec::new());
+    let rope_of = |length: f64| json!([{"type": "rope", "length": length, "elements": 20}]);
+    for k in 0..points {
+        let (x, name) = (-200.0 * k as f64, format!("p{k}"));
+        held.push(json!({"name": name, "position": [x, 0, -40], "mass": 3000.0, "volume": 25.0, "drag_area": 6.0, "added_mass": 8000.0}));
+        lines.push(json!({"name": format!("leg{k}"), "fairlead": {"point": name}, "anchor": [x, 60.0, -150.0], "sections": rope_of(124.0)}));
+        let (from, length) = match k {
+            0 => (json!({"body": "ship", "at": [0, 0, 0]}), 212.0),
+            _ => (json!({"point": format!("p{}", k - 1)}), 206.0),
+        };
+        lines.push(json!({"name": format!("span{k}"), "fairlead": from, "anchor": {"point": name}, "sections": rope_of(length)}));
+    }
+    let motion = json!({"kind": "sinusoidal", "period": 12.0, "sine": [2.0, 1.0, 0.7, 0, 0, 0], "ramp": 24.0});
+    json!({"environment": {"depth": 150.0}, "line_types": {"rope": rope}, "lines": lines, "points": held,
+        "bodies": [{"name": "ship", "position": [200.0, 0, -10.0], "motion": motion}]})
+}
+
+/// Twenty lines and ten points, of which one end is moved: every line pulls as it does alone with its ends on the way that they go here, to a thousandth of its
+/// tension at rest (that is the tolerance of both), and all of them cost no more than 1.5 times what they cost alone, in elements that are looked at.
+#[test]
+fn lines_that_meet_pull_as_each_alone_and_cost_little_more() {
+    let loaded = load(&farm(10));
+    let together = &partition::parts(&loaded.scene)[0];
+    let mut group = match Part::of_scene(&loaded, together) {
+        Ok(Part::Group(group)) => group,
+        Ok(_) => panic!("no group"),
+        Err(error) => panic!("{error}"),
+    };
+    group.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
+    let (rows, count) = (400, loaded.scene.lines.len());
+    let (mut pulls, mut ways) = (vec![Vec::new(); count], vec![Vec::new(); 10]);
+    let mut placed = loaded.scene.clone();
+    group.place_in(&mut placed);
+    let at_rest: Vec<Outputs> = (0..count).map(|local| group.outputs(local)).collect();
+    for row in 0..=rows {
+        if row > 0 {
+            group.advance(0.1 * f64::from(row)).unwrap_or_else(|error| panic!("{error}"));
+        }
+        (0..count).for_each(|local| pulls[local].push(group.outputs(local)));
+        (0..10).for_each(|point| ways[point].push(group.point(point)));
+    }
+    let joined = group.counters().element_iterations;
+    let times: Vec<f64> = (0..=rows).map(|row| 0.1 * f64::from(row)).collect();
+    let path_of = |on: &Option<Mount>, own: Path| match on {
+        Some(Mount::Point { point }) => {
+            let way = &ways[loaded.scene.point(point).unwrap_or_else(|| panic!("a point"))];
+            let (positions, velocities) = (way.iter().map(|at| at.position.into()), way.iter().map(|at| at.velocity.into()));
+            Path::Table(Arc::new(Table { times: times.clone(), positions: positions.collect(), velocities: velocities.collect() }))
+        }
+        _ => own,
+    };
+    let mut apart = 0;
+    for (index, line) in loaded.scene.lines.iter().enumerate() {
+        let own = Ends::of_scene(&loaded, index);
+        let ends = Ends { fairlead: path_of(&line.fairlead_on, own.fairlead), anchor: path_of(&line.anchor_on, own.anchor) };
+        let mut alone = Simulation::on_ends(&placed, index, Some(&ends)).unwrap_or_else(|error| panic!("{error}"));
+        alone.settle_between(ends.fairlead.at(0.0).position, ends.anchor.at(0.0).position, 0.0).unwrap_or_else(|error| panic!("{error}"));
+        for (time, here) in times.iter().zip(&pulls[index]).skip(1) {
+            alone.advance_ends(*time, &ends).unwrap_or_else(|error| panic!("{error}"));
+            let off = (alone.observe().tension - here.tension).abs() / at_rest[index].tension;
+            assert!(off < 1.0e-3, "line {index} at {time} s is off by {off:.1e} of its tension at rest");
+        }
+        apart += alone.counters().element_iterations;
+    }
+    println!("{joined} elements looked at together, {apart} apart");
+    assert!((joined as f64) < 1.5 * apart as f64, "{joined} elements looked at together, {apart} apart");
 }

@@ -1,13 +1,16 @@
 //! Lines that hang on free points and bodies, against closed forms and conservation laws.
 
+use moorline::scene::motion_file::Table;
 use moorline::scene::read::{self, Loaded};
-use moorline::solve::group::Group;
-use moorline::solve::motion::Ends;
+use moorline::solve::group::{EndOf, Group};
+use moorline::solve::motion::{self, Ends};
 use moorline::solve::partition;
+use moorline::solve::snapshot::Snapshot;
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
+use std::sync::Arc;
 
 fn load(scene: &Value) -> Loaded {
     read::parse(&scene.to_string(), "test", Path::new("."), &[]).unwrap_or_else(|error| panic!("{error}"))
@@ -305,4 +308,106 @@ fn a_load_from_a_file_moves_a_body_as_an_oscillator() {
     let (x, angle) = (body.reference.position.x, moorline::algebra::rotation::angles(&body.rotation).z);
     assert!((x * k / pull - 1.0).abs() < 1e-4 && (angle * yaw / turn - 1.0).abs() < 1e-4, "{x} m, {angle} rad");
     std::fs::remove_dir_all(&directory).expect("a directory");
+}
+
+/// A fairlead, a point on two chains, and a buoy under water on two more lines.
+fn moored_buoy() -> Value {
+    let chain = json!({"ea": 4e8, "mass": 110.0, "diameter": 0.07, "submerged_weight": 940.0, "drag": {"normal": 1.2}, "added_mass": {"normal": 1.0}});
+    let line = |fairlead: Value, anchor: Value, length: f64| {
+        json!({"fairlead": fairlead, "anchor": anchor, "sections": [{"type": "chain", "length": length, "elements": 10}]})
+    };
+    json!({
+        "environment": {"depth": 150.0}, "line_types": {"chain": chain},
+        "lines": [
+            line(json!([40.0, 0.0, -2.0]), json!({"point": "joint"}), 75.0),
+            line(json!({"point": "joint"}), json!([-250.0, 150.0, -150.0]), 320.0),
+            line(json!({"point": "joint"}), json!([-250.0, -150.0, -150.0]), 320.0),
+            line(json!({"point": "joint"}), json!({"body": "buoy", "at": [-2.0, 0, 0]}), 60.0),
+            line(json!({"body": "buoy", "at": [2.0, 0, 0]}), json!([150.0, 10.0, -150.0]), 180.0),
+        ],
+        "points": [{"name": "joint", "position": [0, 0, -60], "mass": 3000.0, "volume": 40.0, "drag_area": 6.0, "added_mass": 8000.0}],
+        "bodies": [{"name": "buoy", "position": [50.0, 2.0, -50.0], "motion": {"kind": "free"}, "mass": 4.0e4, "centre_of_mass": [0, 0, -0.5],
+            "inertia": [8e4, 8e4, 8e4], "volume": 90.0, "centre_of_buoyancy": [0, 0, 0.3]}],
+    })
+}
+
+/// Lines that meet, and what they hang on, take no steps and no iterations while nothing moves, however long; what they would do is less than the
+/// hundredth of the tolerance that is promised; and they wake when an end is driven, a force applied to a body or changed on a point: then they do what
+/// those do that never rested, also after a rollback. In waves and in a current that may change there is no rest.
+#[test]
+fn lines_that_meet_cost_nothing_at_rest_until_something_moves() {
+    let scene = moored_buoy();
+    let mut resting = settled(&scene);
+    let tensions = |group: &mut Group| -> Vec<f64> { (0..5).map(|local| group.outputs(local).tension).collect() };
+    let before = tensions(&mut resting);
+    for row in 1..=10_000 {
+        resting.advance(0.1 * f64::from(row)).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let counters = resting.counters();
+    assert_eq!((counters.steps, counters.newton_iterations), (0, 0), "{counters:?}");
+    assert_eq!((tensions(&mut resting), resting.time()), (before.clone(), 1000.0));
+
+    // Every step is asked for: what the skip left out.
+    let mut stepped_scene = scene.clone();
+    stepped_scene["solver"] = json!({"fixed_step": 0.1});
+    let mut stepped = settled(&stepped_scene);
+    for row in 1..=200 {
+        stepped.advance(0.1 * f64::from(row)).unwrap_or_else(|error| panic!("{error}"));
+        for (local, (now, before)) in tensions(&mut stepped).iter().zip(&before).enumerate() {
+            assert!((now / before - 1.0).abs() <= 1e-5, "line {local}, row {row}: {before} N, {now} N");
+        }
+    }
+    assert_eq!(stepped.counters().steps, 200);
+
+    // Each way to wake it: after a rest of 64 s, and at once.
+    let fairlead = [40.0, 0.0, -2.0];
+    let shifted = |rest: f64| {
+        let (times, to) = (vec![0.0, rest, rest + 5.0], [38.0, 1.0, -1.0]);
+        motion::Path::Table(Arc::new(Table { times, positions: vec![fairlead, fairlead, to], velocities: vec![[0.0; 3]; 3] }))
+    };
+    let ways: [(&str, &dyn Fn(&mut Group)); 3] = [
+        ("an end is driven", &|_| ()),
+        ("a body is pulled at", &|group| group.apply(0, Vector3::new(2.0e4, 0.0, 0.0), Vector3::zeros())),
+        ("a point is pulled at", &|group| group.pull(0, Vector3::new(0.0, 2.0e4, 0.0))),
+    ];
+    for (what, wake) in ways {
+        let drives = what.contains("driven");
+        let (mut at_once, mut rested) = (settled(&scene), settled(&scene));
+        if drives {
+            at_once.drive(0, EndOf::Fairlead, &shifted(0.0));
+            rested.drive(0, EndOf::Fairlead, &shifted(64.0));
+        }
+        rested.advance(64.0).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(rested.counters().steps, 0, "{what}");
+        let mut asleep = Snapshot::new(2);
+        rested.save(&mut asleep);
+        wake(&mut at_once);
+        wake(&mut rested);
+        let mut found = Vec::new();
+        for row in 1..=40 {
+            let time = 0.125 * f64::from(row);
+            at_once.advance(time).unwrap_or_else(|error| panic!("{error}"));
+            rested.advance(64.0 + time).unwrap_or_else(|error| panic!("{error}"));
+            found.push(tensions(&mut rested));
+            for (one, other) in found.last().into_iter().flatten().zip(tensions(&mut at_once)) {
+                assert!((one / other - 1.0).abs() < 1e-8, "{what}, row {row}: {one} N, {other} N");
+            }
+        }
+        let moved = found.last().into_iter().flatten().zip(&before).any(|(now, before)| (now / before - 1.0).abs() > 1e-3);
+        assert!(moved && rested.counters().steps > 40, "{what}");
+        assert!(rested.restore(&asleep), "{what}");
+        for (row, expected) in (1..=40).zip(&found) {
+            rested.advance(64.0 + 0.125 * f64::from(row)).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(&tensions(&mut rested), expected, "{what}, row {row} after a rollback");
+        }
+    }
+
+    let rows = json!({"rows": [[0, 0, 0, 0, 0], [20, 0, 0, 0, 0], [30, 0, 1, 0, 0]]});
+    for (key, value) in [("waves", json!({"kind": "regular", "amplitude": 0.1, "period": 8.0})), ("current_over_time", rows)] {
+        let mut moved = scene.clone();
+        moved["environment"][key] = value;
+        let mut group = settled(&moved);
+        group.advance(2.0).unwrap_or_else(|error| panic!("{error}"));
+        assert!(group.counters().steps > 0, "{key}");
+    }
 }

@@ -229,6 +229,11 @@ impl<const B: usize> Factor<B> {
     pub fn solve(&self, b: &mut [f64], stride: usize) {
         self.processor.dispatch(Solution { factor: self, b, stride });
     }
+
+    /// The same for the blocks of `runs` alone, each from its first to before its end, in order; none of them may be coupled with a block outside.
+    pub fn solve_runs(&self, b: &mut [f64], stride: usize, runs: &[(usize, usize)]) {
+        self.processor.dispatch(PartialSolution { factor: self, b, stride, runs });
+    }
 }
 
 struct Elimination<'a, const B: usize, const M: usize> {
@@ -360,6 +365,75 @@ impl<const B: usize> WithSimd for Solution<'_, B> {
     }
 }
 
+struct PartialSolution<'a, const B: usize> {
+    factor: &'a Factor<B>,
+    b: &'a mut [f64],
+    stride: usize,
+    runs: &'a [(usize, usize)],
+}
+
+impl<const B: usize> WithSimd for PartialSolution<'_, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        let PartialSolution { factor, b, stride, runs } = self;
+        let middle = factor.middle;
+        let mut at = factor.entries;
+        at.iter_mut().for_each(|entry| *entry *= stride);
+        // The blocks on this side of the middle, and those beyond it, each run towards the middle: a block and whether a run begins with it.
+        let below = || runs.iter().flat_map(|&(first, end)| (first..end.min(middle)).map(move |k| (k, k == first, k + 1 == end)));
+        let above = || {
+            runs.iter().rev().flat_map(|&(first, end)| {
+                (first.max(middle + 1)..end).rev().map(move |k| (k, k + 1 == end, k == first))
+            })
+        };
+        let zero = [0.0; MOST_LANES];
+        let (mut low, mut high) = (zero, zero);
+        let (mut lows, mut highs) = (below(), above());
+        loop {
+            let (one, other) = (lows.next(), highs.next());
+            if let Some((k, begins, ends)) = one {
+                low = if begins { gather(b, &at, k) } else { low };
+                if !ends {
+                    low = factor.eliminate(cpu, b, &at, &low, k, k + 1);
+                }
+            }
+            if let Some((k, begins, ends)) = other {
+                high = if begins { gather(b, &at, k) } else { high };
+                if !ends {
+                    high = factor.eliminate(cpu, b, &at, &high, k, k - 1);
+                }
+            }
+            if one.is_none() && other.is_none() {
+                break;
+            }
+        }
+        let mut centre = zero;
+        if runs.iter().any(|(first, end)| (*first..*end).contains(&middle)) {
+            centre = factor.inverse[middle].multiply_add(cpu, &gather(b, &at, middle), &zero);
+            scatter(b, &at, middle, &centre);
+        }
+        (low, high) = (centre, centre);
+        // Back again: what a run ends with towards the middle has no neighbour there, or the block in the middle.
+        let back_below = || runs.iter().rev().flat_map(|&(first, end)| (first..end.min(middle)).rev().map(move |k| (k, k + 1 == end)));
+        let back_above = || runs.iter().flat_map(|&(first, end)| (first.max(middle + 1)..end).map(move |k| (k, k == first)));
+        let (mut lows, mut highs) = (back_below(), back_above());
+        loop {
+            let (one, other) = (lows.next(), highs.next());
+            if let Some((k, apart)) = one {
+                low = factor.substitute(cpu, b, &at, if apart { &zero } else { &low }, k);
+            }
+            if let Some((k, apart)) = other {
+                high = factor.substitute(cpu, b, &at, if apart { &zero } else { &high }, k);
+            }
+            if one.is_none() && other.is_none() {
+                break;
+            }
+        }
+    }
+}
+
 impl<const B: usize> Factor<B> {
     /// Takes block `from`, whose right-hand side is `y`, out of the row of its neighbour `to`; returns the right-hand side there.
     #[inline(always)]
@@ -475,6 +549,38 @@ mod tests {
         every.solve(&mut all, 6);
         few.solve(&mut some, 6);
         all.iter().zip(&some).for_each(|(x, y)| assert!((x - y).abs() < 1e-13, "{x} {y}"));
+    }
+
+    /// Three chains that stand apart: any of them alone are solved for to the bit as among all, whichever holds the block in the middle, and the
+    /// right-hand sides of the others stay.
+    #[test]
+    fn runs_alone_are_solved_for_as_among_all() {
+        let chains = [(0, 3), (3, 8), (8, 10), (10, 13)];
+        let entry = |i: usize, r: usize, c: usize| 0.1 * ((7 * i + 3 * r + 5 * c) % 11) as f64 - 0.5;
+        let tied = (0..12).map(|i| i == 4).collect();
+        let mut a = BlockTridiagonal::<6>::new(tied);
+        for i in 0..13 {
+            a.diagonal[i] = Block::from_fn(|r, c| entry(i, r, c) + if r == c { 6.0 } else { 0.0 });
+            if i < 12 && !chains.iter().any(|(_, end)| *end == i + 1) {
+                let held = |r: usize, c: usize| i == 4 && (r < 3 || c < 3);
+                a.upper[i] = Block::from_fn(|r, c| if held(r, c) { 0.0 } else { entry(i + 6, r, c) });
+                a.lower[i] = Block::from_fn(|r, c| if held(r, c) { 0.0 } else { entry(i + 12, r, c) });
+            }
+        }
+        let mut factor = Factor::new(13, [0, 1, 2, 3, 4, 5]);
+        factor.factor(&a).unwrap();
+        let right: Vec<f64> = (0..78).map(|k| ((k * k) % 13) as f64 - 5.0).collect();
+        let mut all = right.clone();
+        factor.solve(&mut all, 13);
+        for chosen in 0..16 {
+            let runs: Vec<(usize, usize)> = (0..4).filter(|k| chosen >> k & 1 == 1).map(|k| chains[k]).collect();
+            let mut some = right.clone();
+            factor.solve_runs(&mut some, 13, &runs);
+            for k in 0..78 {
+                let inside = runs.iter().any(|(first, end)| (*first..*end).contains(&(k % 13)));
+                assert_eq!(some[k], if inside { all[k] } else { right[k] }, "{runs:?}, entry {k}");
+            }
+        }
     }
 
     #[test]

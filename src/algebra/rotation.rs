@@ -20,7 +20,9 @@ pub struct Attitude {
 impl Attitude {
     /// Of roll, pitch and yaw [rad].
     pub fn of(angles: &Vector3<f64>) -> Attitude {
-        Attitude { roll: angles.x.sin_cos(), pitch: angles.y.sin_cos(), yaw: angles.z.sin_cos() }
+        // Most bodies that are driven through a test do not turn.
+        let of = |angle: f64| if angle == 0.0 { (angle, 1.0) } else { angle.sin_cos() };
+        Attitude { roll: of(angles.x), pitch: of(angles.y), yaw: of(angles.z) }
     }
 
     /// R.

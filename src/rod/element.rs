@@ -312,22 +312,27 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
     Acting { ends: sum, touching, dry: -wet + 1.0 }
 }
 
-/// Adds the residual of every element to `out`, with the waves as `flows` has them or as they are asked for, and calls `partly` for each that is still to be looked at, with what there may be.
+/// Adds the residual of the elements between the nodes of each of `runs`, from its first to the one before its end, to `out`, with the waves as
+/// `flows` has them or as they are asked for, and calls `partly` for each that is still to be looked at, with what there may be. Of the elements
+/// behind a run it may add up to `MOST_LANES` too.
+#[allow(clippy::too_many_arguments)]
 pub fn residual<S: Stretch, W: Water, B: Bending, D: Dimension>(
     table: &Table,
     water: &W,
     bed: Option<&Bed>,
     flows: Option<&Flows>,
     motion: &Motion,
+    runs: &[(usize, usize)],
     out: &mut Field,
     partly: impl FnMut(usize, bool, bool, &mut Field),
 ) {
     let source = Source { flows, ..Source::new(table, water, bed, motion) };
-    table.processor.dispatch(Residual::<S, W, B, D, _> { table, source, out, partly, laws: PhantomData });
+    table.processor.dispatch(Residual::<S, W, B, D, _> { table, runs, source, out, partly, laws: PhantomData });
 }
 
 struct Residual<'a, S, W, B, D, P> {
     table: &'a Table,
+    runs: &'a [(usize, usize)],
     source: Source<'a, W>,
     out: &'a mut Field,
     partly: P,
@@ -341,18 +346,20 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension, P: FnMut(usize, bool, bool,
 
     #[inline(always)]
     fn with_simd<V: Simd>(mut self, cpu: V) {
-        for e in (0..self.table.len()).step_by(V::F64_LANES) {
-            let acting = batch_forces::<Lanes<V, D>, S, W, B>(cpu, &self.source, e);
-            let length = Batch::<Lanes<V, D>> { cpu, rows: self.source.table, e }.get(Property::Length);
-            add_to_nodes(cpu, self.out, e, length, &acting.ends);
-            if acting.touching.any_positive() || acting.dry.any_positive() {
-                let (mut touching, mut dry) = ([0.0; MOST_LANES], [0.0; MOST_LANES]);
-                acting.touching.store(&mut touching, 0);
-                acting.dry.store(&mut dry, 0);
-                for lane in (0..V::F64_LANES).filter(|lane| e + lane < self.table.len()) {
-                    let (touching, dry) = (touching[lane] > 0.0, dry[lane] > 0.0);
-                    if touching || dry {
-                        (self.partly)(e + lane, touching, dry, self.out);
+        for &(first, end) in self.runs {
+            for e in (first..end - 1).step_by(V::F64_LANES) {
+                let acting = batch_forces::<Lanes<V, D>, S, W, B>(cpu, &self.source, e);
+                let length = Batch::<Lanes<V, D>> { cpu, rows: self.source.table, e }.get(Property::Length);
+                add_to_nodes(cpu, self.out, e, length, &acting.ends);
+                if acting.touching.any_positive() || acting.dry.any_positive() {
+                    let (mut touching, mut dry) = ([0.0; MOST_LANES], [0.0; MOST_LANES]);
+                    acting.touching.store(&mut touching, 0);
+                    acting.dry.store(&mut dry, 0);
+                    for lane in (0..V::F64_LANES).filter(|lane| e + lane < self.table.len()) {
+                        let (touching, dry) = (touching[lane] > 0.0, dry[lane] > 0.0);
+                        if touching || dry {
+                            (self.partly)(e + lane, touching, dry, self.out);
+                        }
                     }
                 }
             }

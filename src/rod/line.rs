@@ -185,6 +185,10 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
     }
 
     fn residual(&self, at: &Motion, out: &mut Field) {
+        self.residual_of(at, &[(0, self.mesh.nodes())], out);
+    }
+
+    fn residual_of(&self, at: &Motion, runs: &[(usize, usize)], out: &mut Field) {
         out.fill(0.0);
         let partly = |e: usize, touching: bool, dry: bool, out: &mut Field| {
             for part in self.partial_forces(at, e, touching, dry).into_iter().flatten() {
@@ -192,7 +196,7 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
             }
         };
         let flows = self.flows_of(at);
-        element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), flows.as_deref(), at, out, partly);
+        element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), flows.as_deref(), at, runs, out, partly);
         drop(flows);
         if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
             lying.add_to(ground, &self.table, at, out);

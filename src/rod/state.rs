@@ -100,6 +100,13 @@ impl Field {
         largest
     }
 
+    /// Largest entry of nodes `first` to before `end` times `scales` (for positions, slopes), all numbers finite.
+    pub fn largest_entry(&self, first: usize, end: usize, scales: [f64; 2]) -> f64 {
+        let of = |c: usize| self.component(c)[first..end].iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let part = |from: usize| of(from).max(of(from + 1)).max(of(from + 2));
+        (part(0) * scales[0]).max(part(3) * scales[1])
+    }
+
     /// Sets components 0–2 of a node.
     pub fn set_position(&mut self, node: usize, x: &Vector3<f64>) {
         for c in 0..3 {

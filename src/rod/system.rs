@@ -24,6 +24,9 @@ pub trait System: Send + Sync {
     fn place(&self, order: usize, field: &mut Field, time: f64);
     /// Residual R [N, N·m]: the force to be applied from outside for this motion. At tied nodes it stands at the second.
     fn residual(&self, at: &Motion, out: &mut Field);
+    /// The same of some of its lines alone: those between the nodes of each of `runs`, from its first to the one before its end, which lie at least
+    /// `MOST_LANES` nodes apart; what stands at the nodes of other lines says nothing.
+    fn residual_of(&self, at: &Motion, runs: &[(usize, usize)], out: &mut Field);
     /// c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a. `geometric`, where given, is the tension of the geometric part at each Gauss point [N].
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>);
     /// M x: the inertia (and of the water moved with it) for accelerations x, everything else at rest [N, N·m].
@@ -42,9 +45,9 @@ pub trait System: Send + Sync {
     fn follow(&self, _: &mut State) {}
     /// Lets the rotation vectors of free bodies count from where they are.
     fn recentre(&self, _: &mut State) {}
-    /// Largest displacement of a free body or point in an increment, turns at the reach of the body: what these do is the sum of what is left of
-    /// their accelerations, step by step, so that they must be iterated closer than what a line does.
-    fn loose(&self, _: &Field) -> f64 {
+    /// Displacement of a free body or point, by its number among `Links::masters`, in an increment, turns at the reach of the body: what these do is
+    /// the sum of what is left of their accelerations, step by step, so that they must be iterated closer than what a line does.
+    fn loose(&self, _: &Field, _: usize) -> f64 {
         0.0
     }
     /// Size of an error of the positions [m], each line's by its own scale as a share of the finest one.
@@ -83,6 +86,8 @@ pub struct Links {
     pub masters: Vec<usize>,
     /// First node of each line and the one behind its last.
     pub ranges: Vec<(usize, usize)>,
+    /// Elements of each line.
+    pub elements: Vec<usize>,
 }
 
 impl Links {

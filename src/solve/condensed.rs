@@ -205,6 +205,27 @@ impl Condensed {
     /// Solves with the factor: b, of which forces on hanging ends have been taken to their masters, becomes the solution. The levers of the factor
     /// may be those of another time; those of the forces may not.
     pub fn solve(&self, b: &mut Field) {
+        let stride = b.stride();
+        self.solve_by(b, |factor, b| factor.solve(b.data_mut(), stride));
+    }
+
+    /// The same, where b is zero inside all lines but those of `runs`, from their first nodes to before their ends.
+    pub fn solve_runs(&self, b: &mut Field, runs: &[(usize, usize)]) {
+        let stride = b.stride();
+        self.solve_by(b, |factor, b| factor.solve_runs(b.data_mut(), stride, runs));
+    }
+
+    /// Takes from the forces on hanging ends [N] what a displacement of all takes from them by the matrix that was factored.
+    pub fn relax(&self, x: &Field, forces: &mut [Vector3<f64>]) {
+        for ((link, coupling), force) in self.links.links.iter().zip(&self.couplings).zip(forces) {
+            *force -= coupling.own * x.position(link.node);
+            for (node, row) in &coupling.row {
+                *force -= row * Vector6::from_fn(|r, _| x.component(r)[*node]);
+            }
+        }
+    }
+
+    fn solve_by(&self, b: &mut Field, of_lines: impl FnOnce(&Factor<COMPONENTS>, &mut Field)) {
         let mut right = DVector::zeros(self.condensed.nrows());
         for (number, &node) in self.links.masters.iter().enumerate() {
             for c in 0..COMPONENTS {
@@ -215,8 +236,7 @@ impl Condensed {
         for link in &self.links.links {
             b.set_position(link.node, &Vector3::zeros());
         }
-        let stride = b.stride();
-        self.factor.solve(b.data_mut(), stride);
+        of_lines(&self.factor, b);
         for (number, link) in self.links.hanging() {
             let mut force = Vector3::zeros();
             for (node, row) in &self.couplings[number].row {

@@ -15,22 +15,35 @@ pub struct Origin {
 }
 
 /// All of the past of the stage solver that the next stage depends on. A clone shares the origin, so that it costs next to nothing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Memory {
     /// Origin of the factor that the next stage may use; none: it begins with a new one.
     pub origin: Option<Arc<Origin>>,
     /// How the iteration contracted last: each increment over the one before.
     pub rate: f64,
-    /// The same of free bodies and points alone.
-    pub loose_rate: f64,
+    /// The same of each line, then of each body and point, of a network; none of a line alone.
+    pub rates: Vec<f64>,
     /// Whole steps failed where shortened ones did not: near a kink that the line keeps crossing.
     pub rough: bool,
+}
+
+impl Clone for Memory {
+    fn clone(&self) -> Memory {
+        Memory { origin: self.origin.clone(), rates: self.rates.clone(), ..*self }
+    }
+
+    // Allocates nothing where there is room.
+    fn clone_from(&mut self, other: &Memory) {
+        self.origin.clone_from(&other.origin);
+        self.rates.clone_from(&other.rates);
+        (self.rate, self.rough) = (other.rate, other.rough);
+    }
 }
 
 impl Memory {
     /// Before the first stage.
     pub fn none() -> Memory {
-        Memory { origin: None, rate: 1.0, loose_rate: 1.0, rough: false }
+        Memory { origin: None, rate: 1.0, rates: Vec::new(), rough: false }
     }
 
     /// Weights of the factor that the next stage may use.

@@ -155,7 +155,11 @@ impl System for Network {
     }
 
     fn residual(&self, at: &Motion, out: &mut Field) {
-        self.rod.residual(at, out);
+        self.residual_of(at, &[(0, self.rod.nodes())], out);
+    }
+
+    fn residual_of(&self, at: &Motion, runs: &[(usize, usize)], out: &mut Field) {
+        self.rod.residual_of(at, runs, out);
         for body in &self.bodies {
             let [force, moment] = body.residual(at);
             out.set_position(body.node, &force);
@@ -251,13 +255,10 @@ impl System for Network {
         }
     }
 
-    fn loose(&self, increment: &Field) -> f64 {
-        let mut largest = 0.0_f64;
-        for node in &self.links.masters {
-            let turn = self.body_at(*node).map_or(0.0, |body| body.reach() * increment.slope(*node).norm());
-            largest = largest.max(increment.position(*node).norm()).max(turn);
-        }
-        largest
+    fn loose(&self, increment: &Field, number: usize) -> f64 {
+        let node = self.links.masters[number];
+        let turn = self.body_at(node).map_or(0.0, |body| body.reach() * increment.slope(node).norm());
+        increment.position(node).norm().max(turn)
     }
 
     fn gather(&self, at: &Motion, out: &mut Field) {

@@ -10,11 +10,14 @@ use crate::rod::motion::{Asking, Motion, Weights};
 use crate::rod::state::{COMPONENTS, Field, State};
 use crate::rod::system::System;
 use crate::solve::memory::{Memory, Shelf};
+use crate::solve::open_lines::{OpenLines, left};
 use crate::solve::search;
 use crate::solve::unknowns::Unknowns;
 use nalgebra::{Matrix3, Matrix6, SVector, Vector3};
 use std::ops::AddAssign;
 use std::sync::Arc;
+
+mod apart;
 
 /// How a stage is to be solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +78,8 @@ pub struct Effort {
     pub iterations: usize,
     /// Factorisations.
     pub factorisations: usize,
+    /// Elements of lines that were done in an iteration that others still needed, over all iterations.
+    pub spared: usize,
 }
 
 /// The solver of stages of one line.
@@ -88,6 +93,8 @@ pub struct Newton {
     increment: Field,
     residual: Field,
     start: State,
+    /// Which lines of a network a stage looks at; none of a line alone.
+    open: Option<Box<OpenLines>>,
     /// Work done so far.
     pub effort: Effort,
 }
@@ -114,6 +121,7 @@ impl Newton {
             increment: Field::new(nodes),
             residual: Field::new(nodes),
             start: State::new(nodes),
+            open: line.links().map(|links| Box::new(OpenLines::new(links))),
             effort: Effort::default(),
         }
     }
@@ -266,7 +274,14 @@ impl Newton {
     pub fn solve(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
         if !self.memory.rough {
             self.start.copy_from(trial);
-            let quick = self.iterate(line, weights, trial, criteria);
+            let quick = match self.open.take() {
+                None => self.iterate(line, weights, trial, criteria),
+                Some(mut open) => {
+                    let outcome = self.iterate_apart(&mut open, line, weights, trial, criteria);
+                    self.open = Some(open);
+                    outcome
+                }
+            };
             if quick.is_ok() {
                 return quick;
             }
@@ -281,19 +296,25 @@ impl Newton {
         damped
     }
 
-    /// Modified Newton: whole steps with an old factor, as long as they contract.
-    fn iterate(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
+    /// Has a factor for a stage at hand: the one of before where it may do, or a new one, of which is not known how it contracts.
+    fn prepare(&mut self, line: &dyn System, weights: &Weights, trial: &State) -> Result<(), Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
         if !self.memory.weights().is_some_and(fresh) || self.remake(line).is_err() {
-            (self.memory.rate, self.memory.loose_rate) = (1.0, 1.0);
+            self.memory.rate = 1.0;
+            self.memory.rates.fill(1.0);
             self.factor(line, &motion(trial), weights, None)?;
         }
-        let (mut last, mut last_loose) = (f64::INFINITY, f64::INFINITY);
+        Ok(())
+    }
+
+    /// Modified Newton: whole steps with an old factor, as long as they contract.
+    fn iterate(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
+        self.prepare(line, weights, trial)?;
+        let mut last = f64::INFINITY;
         let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
         for iteration in 0..criteria.iterations {
             self.find_increment(line, trial, if iteration == 0 { Asking::First } else { Asking::Again });
-            let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
-            let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
+            let size = self.retreat(weights, trial, criteria);
             line.follow(trial);
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
@@ -302,18 +323,8 @@ impl Newton {
             if last.is_finite() {
                 self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
             }
-            let left = |size: f64, rate: f64| size * (rate / (1.0 - rate).max(0.1)).min(1.0) < criteria.tolerance;
-            if left(size, self.memory.rate) {
-                let loose = line.loose(&self.increment) * scales[0] * criteria.emphasis;
-                if loose > 0.0 && last_loose.is_finite() {
-                    self.memory.loose_rate = (loose / last_loose).max(0.3 * self.memory.loose_rate).min(1.0);
-                }
-                last_loose = loose;
-                if left(loose, self.memory.loose_rate) {
-                    return Ok(());
-                }
-                last = size;
-                continue;
+            if left(size, self.memory.rate) < criteria.tolerance {
+                return Ok(());
             }
             if contraction > 2.0 && new_factor {
                 return Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 });
@@ -327,6 +338,12 @@ impl Newton {
         Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 })
     }
 
+    /// Takes the increment away, and returns its largest scaled entry; NaN if any is not finite.
+    fn retreat(&self, weights: &Weights, trial: &mut State, criteria: &Criteria) -> f64 {
+        let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
+        trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales)
+    }
+
     /// Full Newton with a search along each step: slower, but it gets round the kinks where the line goes slack or lands.
     fn iterate_damped(
         &mut self,
@@ -336,6 +353,7 @@ impl Newton {
         criteria: &Criteria,
     ) -> Result<(), Stall> {
         self.memory.rate = 1.0;
+        self.memory.rates.fill(1.0);
         line.residual(&motion(trial), &mut self.residual);
         line.gather(&motion(trial), &mut self.residual);
         for _ in 0..DAMPED {
@@ -344,7 +362,9 @@ impl Newton {
             self.increment.copy_from(&self.residual);
             self.unknowns.solve(line, &mut self.increment);
             let (size, node) = self.size(weights.u, criteria.length);
-            let size = size.max(line.loose(&self.increment) * weights.u.abs() / criteria.length * criteria.emphasis);
+            let masters = line.links().map_or(0, |links| links.masters.len());
+            let loose = (0..masters).map(|number| line.loose(&self.increment, number)).fold(0.0, f64::max);
+            let size = size.max(loose * weights.u.abs() / criteria.length * criteria.emphasis);
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node });
             }

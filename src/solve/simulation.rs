@@ -30,6 +30,11 @@ mod looking;
 mod passage;
 mod rollback;
 
+/// A line is at rest where no tension along it can change by more than this share of the tolerance times the end tension.
+pub(in crate::solve) const REST_SHARE: f64 = 0.01;
+/// A fairlead that stays within this share of the line's length of a place rests there: rounding.
+pub(in crate::solve) const SLIGHT: f64 = 1.0e-14;
+
 /// One mooring line through statics and time.
 pub struct Simulation {
     name: String,

@@ -78,6 +78,11 @@ impl Snapshot {
         self.of_network.len()
     }
 
+    /// Whether what it remembers of how parts of a network contract is that of so many, or of none.
+    pub fn fits_parts(&self, count: usize) -> bool {
+        self.memory.rates.is_empty() || self.memory.rates.len() == count
+    }
+
     /// Number of nodes that hold on to the bed.
     pub fn holding_nodes(&self) -> usize {
         self.moment.state.holds.nodes()
@@ -114,7 +119,7 @@ impl Snapshot {
     pub fn to_bytes(&self, out: &mut Vec<u8>) {
         let (m, last, memory) = (&self.moment, &self.last, &self.memory);
         let flags = [self.fresh, self.resting, self.planar, memory.rough, memory.origin.is_some()];
-        let words = [
+        let words: [u64; WORDS] = [
             self.nodes() as u64,
             m.state.holds.nodes() as u64,
             flags.iter().rev().fold(0, |bits, flag| 2 * bits + u64::from(*flag)),
@@ -123,19 +128,21 @@ impl Snapshot {
             last.newton_iterations as u64,
             m.state.frames.len() as u64,
             self.of_network.len() as u64,
+            memory.rates.len() as u64,
         ];
         out.reserve(
             8 * (words.len() + SCALARS + 18 * m.state.frames.len() + 8 * COMPONENTS * (self.nodes() + m.state.holds.nodes())),
         );
         words.into_iter().for_each(|word| out.extend_from_slice(&word.to_le_bytes()));
         let clock = m.state.clock;
-        let steps = [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate, memory.loose_rate];
+        let steps = [clock.now, clock.start, m.last_step, m.step, m.tried, memory.rate];
         write(&steps, out);
-        let scalars: [f64; SCALARS - 7] = [self.work, self.anchor_work, self.error, last.error_estimate];
+        let scalars: [f64; SCALARS - 6] = [self.work, self.anchor_work, self.error, last.error_estimate];
         write(&scalars, out);
         [&m.state.u, &m.state.v, &m.state.a, &m.earlier, &m.state.holds].into_iter().for_each(|field| write_field(field, out));
         m.state.frames.iter().for_each(|frame| write(frame.as_slice(), out));
         write(&self.of_network, out);
+        write(&memory.rates, out);
         write(&self.tensions.now, out);
         write(&self.tensions.before, out);
         if let Some(origin) = &memory.origin {
@@ -157,9 +164,10 @@ impl Snapshot {
         let (substeps, newton_iterations) = (words.next()? as usize, words.next()? as usize);
         let bodies = usize::try_from(words.next()?).ok().filter(|bodies| *bodies <= nodes)?;
         let more = usize::try_from(words.next()?).ok().filter(|more| *more <= 2 * nodes)?;
+        let parts = usize::try_from(words.next()?).ok().filter(|parts| *parts <= nodes)?;
         let numbers = |fields: usize| nodes.checked_mul(fields)?.checked_add(holding)?.checked_mul(COMPONENTS);
         let origin = if kept { numbers(3)?.checked_add(5 + 9 * bodies)? } else { 0 };
-        let expected = numbers(4)?.checked_add(8 + SCALARS + 9 * bodies + more)?.checked_add(origin)?.checked_mul(8)?;
+        let expected = numbers(4)?.checked_add(WORDS + SCALARS + 9 * bodies + more + parts)?.checked_add(origin)?.checked_mul(8)?;
         let per_node = match bytes.len().checked_sub(expected)? {
             0 => 0,
             rest if rest == 4 * 8 * nodes => 2,
@@ -170,12 +178,13 @@ impl Snapshot {
         }
         let mut number = || words.next().map(f64::from_bits).filter(|x| x.is_finite());
         let clock = Clock { now: number()?, start: number()? };
-        let (last_step, step, tried, rate, loose_rate) = (number()?, number()?, number()?, number()?, number()?);
+        let (last_step, step, tried, rate) = (number()?, number()?, number()?, number()?);
         let (work, anchor_work, error, error_estimate) = (number()?, number()?, number()?, number()?);
         let (u, v, a) = (field(nodes, &mut number)?, field(nodes, &mut number)?, field(nodes, &mut number)?);
         let (earlier, holds) = (field(nodes, &mut number)?, field(holding, &mut number)?);
         let frames = turns(bodies, &mut number)?;
         let of_network = (0..more).map(|_| number()).collect::<Option<Vec<f64>>>()?;
+        let rates = (0..parts).map(|_| number()).collect::<Option<Vec<f64>>>()?;
         let mut list = || (0..per_node * nodes).map(|_| number()).collect::<Option<Vec<f64>>>();
         let tensions = Tensions { now: list()?, before: list()? };
         let mut origin = || {
@@ -190,7 +199,7 @@ impl Snapshot {
         let origin = if kept { Some(origin()?) } else { None };
         Some(Snapshot {
             moment: Moment { state: State { clock, u, v, a, holds, frames }, earlier, last_step, step, tried, guard },
-            memory: Memory { origin, rate, loose_rate, rough },
+            memory: Memory { origin, rate, rates, rough },
             tensions,
             work,
             anchor_work,
@@ -206,8 +215,10 @@ impl Snapshot {
 
 /// Flags of a state.
 const FLAGS: usize = 5;
+/// Words of a state before its scalars.
+const WORDS: usize = 9;
 /// Scalars of a state.
-const SCALARS: usize = 11;
+const SCALARS: usize = 10;
 
 fn write(numbers: &[f64], out: &mut Vec<u8>) {
     out.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));

@@ -5,6 +5,7 @@ use crate::rod::motion::Motion;
 use crate::rod::state::{COMPONENTS, Field};
 use crate::rod::system::System;
 use crate::solve::condensed::Condensed;
+use nalgebra::Vector3;
 
 /// Components of a node in the x–z plane.
 const IN_PLANE: [usize; 4] = [0, 2, 3, 5];
@@ -64,6 +65,22 @@ impl Unknowns {
                 factor.solve(b.data_mut(), stride);
             }
             Unknowns::Network(factor) => factor.solve(b),
+        }
+    }
+
+    /// The same of a network, where b is zero inside all lines but those of `runs`, from their first nodes to before their ends.
+    pub fn solve_runs(&self, line: &dyn System, b: &mut Field, runs: &[(usize, usize)]) {
+        let Unknowns::Network(factor) = self else { return self.solve(line, b) };
+        for &(node, component) in line.fixed() {
+            b.component_mut(component)[node] = 0.0;
+        }
+        factor.solve_runs(b, runs);
+    }
+
+    /// Takes from the forces on the hanging ends of a network [N] what a displacement of all takes from them by the matrix that was factored.
+    pub fn relax(&self, x: &Field, forces: &mut [Vector3<f64>]) {
+        if let Unknowns::Network(factor) = self {
+            factor.relax(x, forces);
         }
     }
 }

@@ -338,7 +338,7 @@ impl Group {
         self.emphasise();
         self.newton.forget();
         self.newton.effort = Effort::default();
-        (self.fresh, self.last) = (true, LastStep::default());
+        (self.fresh, self.resting, self.last) = (true, false, LastStep::default());
         self.works.fill(0.0);
     }
 }

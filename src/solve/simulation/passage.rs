@@ -1,6 +1,6 @@
 //! Going through time: along the path of the fairlead, with the work done on the vessel, or at rest without a step.
 
-use super::Simulation;
+use super::{REST_SHARE, SLIGHT, Simulation};
 use crate::error::{Cause, Error, Stuck, Zone};
 use crate::solve::controller::Failure;
 use crate::solve::counters::LastStep;
@@ -12,10 +12,6 @@ use crate::solve::rest;
 use crate::solve::scheme::{Bench, Moment, Stages};
 use nalgebra::Vector3;
 
-/// A line is at rest where no tension along it can change by more than this share of the tolerance times the end tension.
-const REST_SHARE: f64 = 0.01;
-/// A fairlead that stays within this share of the line's length of a place rests there: rounding.
-const SLIGHT: f64 = 1.0e-14;
 /// How far `cable-1994` may leave the path of its fairlead, as a share of the line's length: it prescribes the velocity and adds it up.
 const MIXED_JUMP: f64 = 1.0e-4;
 
