@@ -102,9 +102,14 @@ impl Field {
 
     /// Largest entry of nodes `first` to before `end` times `scales` (for positions, slopes), all numbers finite.
     pub fn largest_entry(&self, first: usize, end: usize, scales: [f64; 2]) -> f64 {
-        let of = |c: usize| self.component(c)[first..end].iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        let part = |from: usize| of(from).max(of(from + 1)).max(of(from + 2));
-        (part(0) * scales[0]).max(part(3) * scales[1])
+        self.processor.dispatch(Largest { field: self, first, end, scales })
+    }
+
+    /// self += Σ factor·field at nodes `first` to before `end`.
+    pub fn add_between<const N: usize>(&mut self, first: usize, end: usize, terms: [(f64, &Field); N]) {
+        let terms = terms.map(|(factor, field)| (factor, field.data.as_slice()));
+        let (processor, stride) = (self.processor, self.stride);
+        processor.dispatch(SumBetween { to: &mut self.data, stride, first, end, terms });
     }
 
     /// Sets components 0–2 of a node.
@@ -212,6 +217,73 @@ impl<const N: usize> WithSimd for Sum<'_, N> {
             }
             sum.store(self.to, at);
         }
+    }
+}
+
+/// A sum at some nodes, those of other nodes untouched.
+struct SumBetween<'a, const N: usize> {
+    to: &'a mut [f64],
+    stride: usize,
+    first: usize,
+    end: usize,
+    terms: [(f64, &'a [f64]); N],
+}
+
+impl<const N: usize> WithSimd for SumBetween<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) {
+        let whole = (self.end - self.first) / V::F64_LANES * V::F64_LANES;
+        for c in 0..COMPONENTS {
+            let (first, end) = (c * self.stride + self.first, c * self.stride + self.end);
+            for at in (first..first + whole).step_by(V::F64_LANES) {
+                let mut sum = Lanes::<V>::load(cpu, self.to, at);
+                for (factor, term) in self.terms {
+                    sum = Lanes::<V>::load(cpu, term, at).scale_add(factor, sum);
+                }
+                sum.store(self.to, at);
+            }
+            for at in first + whole..end {
+                for (factor, term) in self.terms {
+                    self.to[at] = factor.mul_add(term[at], self.to[at]);
+                }
+            }
+        }
+    }
+}
+
+/// The largest entry at some nodes.
+struct Largest<'a> {
+    field: &'a Field,
+    first: usize,
+    end: usize,
+    scales: [f64; 2],
+}
+
+impl WithSimd for Largest<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> f64 {
+        let (data, stride) = (self.field.data.as_slice(), self.field.stride);
+        let whole = (self.end - self.first) / V::F64_LANES * V::F64_LANES;
+        let mut largest = [0.0_f64; 2];
+        for (part, largest) in largest.iter_mut().enumerate() {
+            let mut lanes = Lanes::<V>::splat(cpu, 0.0);
+            for c in 3 * part..3 * part + 3 {
+                let (first, end) = (c * stride + self.first, c * stride + self.end);
+                for at in (first..first + whole).step_by(V::F64_LANES) {
+                    let x = Lanes::<V>::load(cpu, data, at);
+                    lanes = lanes.max(x.max(-x));
+                }
+                data[first + whole..end].iter().for_each(|x| *largest = x.abs().max(*largest));
+            }
+            let mut all = [0.0; MOST_LANES];
+            lanes.store(&mut all, 0);
+            *largest = all.into_iter().fold(*largest, f64::max);
+        }
+        (largest[0] * self.scales[0]).max(largest[1] * self.scales[1])
     }
 }
 

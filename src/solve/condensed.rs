@@ -37,6 +37,8 @@ pub struct Condensed {
     /// A_ff⁻¹ A_fe, a column each: components of the first that hangs of every line, then of the second, and so on.
     columns: Vec<Field>,
     condensed: DMatrix<f64>,
+    /// Rows of S that are solved for: all but those of prescribed unknowns, of which points have three.
+    free: Vec<usize>,
     solver: Option<LU<f64, Dyn, Dyn>>,
 }
 
@@ -53,6 +55,7 @@ impl Condensed {
             levers: vec![Matrix3x6::zeros(); hanging],
             columns: vec![Field::new(nodes); 3 * slots],
             condensed: DMatrix::zeros(size, size),
+            free: Vec::with_capacity(size),
             solver: None,
         }
     }
@@ -79,11 +82,12 @@ impl Condensed {
 
     /// Adds to the diagonal of S and factors it anew; false where that fails.
     pub fn stiffen(&mut self, by: &DVector<f64>) -> bool {
-        let mut stiffened = self.condensed.clone();
-        (0..by.len()).for_each(|k| stiffened[(k, k)] += by[k]);
+        let free = &self.free;
+        let mut stiffened = DMatrix::from_fn(free.len(), free.len(), |row, column| self.condensed[(free[row], free[column])]);
+        free.iter().enumerate().for_each(|(k, unknown)| stiffened[(k, k)] += by[*unknown]);
         let finite = stiffened.iter().all(|x| x.is_finite());
         let solver = stiffened.lu();
-        let fine = finite && (by.is_empty() || solver.is_invertible());
+        let fine = finite && (free.is_empty() || solver.is_invertible());
         self.solver = Some(solver);
         fine
     }
@@ -191,12 +195,15 @@ impl Condensed {
             }
         }
         let size = self.condensed.diagonal().amax().max(1.0);
+        self.free.clear();
+        self.free.extend(0..self.condensed.nrows());
         for &(node, component) in fixed {
             if let Some(master) = self.links.masters.iter().position(|master| *master == node) {
                 let k = 6 * master + component;
                 self.condensed.row_mut(k).fill(0.0);
                 self.condensed.column_mut(k).fill(0.0);
                 self.condensed[(k, k)] = size;
+                self.free.retain(|free| *free != k);
             }
         }
         Ok(())
@@ -245,20 +252,18 @@ impl Condensed {
             let mut part = right.fixed_rows_mut::<6>(6 * link.master);
             part -= self.levers[number].tr_mul(&force);
         }
+        let mut solved = DVector::from_iterator(self.free.len(), self.free.iter().map(|unknown| right[*unknown]));
         // Lines that are clamped to what is driven have no masters.
-        if let Some(solver) = self.solver.as_ref().filter(|_| !right.is_empty()) {
-            solver.solve_mut(&mut right);
+        if let Some(solver) = self.solver.as_ref().filter(|_| !solved.is_empty()) {
+            solver.solve_mut(&mut solved);
         }
+        right.fill(0.0);
+        self.free.iter().zip(&solved).for_each(|(unknown, x)| right[*unknown] = *x);
         for (number, link) in self.links.hanging() {
             let moved: Vector3<f64> = self.levers[number] * right.fixed_rows::<6>(6 * link.master);
             let (first, end) = self.links.ranges[link.line];
-            for c in 0..3 {
-                let column = &self.columns[3 * link.slot + c];
-                for r in 0..COMPONENTS {
-                    let from = &column.component(r)[first..end];
-                    b.component_mut(r)[first..end].iter_mut().zip(from).for_each(|(x, y)| *x -= moved[c] * y);
-                }
-            }
+            let [x, y, z] = [0, 1, 2].map(|c| (-moved[c], &self.columns[3 * link.slot + c]));
+            b.add_between(first, end, [x, y, z]);
         }
         for (number, link) in self.links.links.iter().enumerate() {
             let moved: Vector3<f64> = self.levers[number] * right.fixed_rows::<6>(6 * link.master);
