@@ -6,6 +6,8 @@ The second is the command, which packs FMUs of scenes with names that are not AS
 is tested by plain calls alone. Needs libcosimpy and ecospy (PyPI), as osp.py and ecos.py do.
 """
 
+from __future__ import annotations
+
 import contextlib
 import ctypes
 import json
@@ -166,7 +168,20 @@ def at(position, velocity, prefix: str = "") -> dict:
     return {f"{prefix}fairlead{dot}{name}{dot}{axis}": float(x) for name, values in given for axis, x in zip("xyz", values)}
 
 
-def runs(motion, steps: int, words=(), fmu: pathlib.Path | None = None, step=STEP, start=0.0, seen="tension", prefix="", quiet=False, alike=ALIKE, masters=MASTERS, **given):
+def runs(
+    motion,
+    steps: int,
+    words=(),
+    fmu: pathlib.Path | None = None,
+    step=STEP,
+    start=0.0,
+    seen="tension",
+    prefix="",
+    quiet=False,
+    alike=ALIKE,
+    masters=MASTERS,
+    **given,
+):
     """Tensions [N] after each step of a motion in each master, which have to be alike; each of `words` has to be heard once in each, and
     where it is to be `quiet` no warning at all."""
     found = []
@@ -224,6 +239,7 @@ for place in (-5.0, 5.0):
     held = runs(lambda _, x=place: ([x, 2.0, 1.0], [0.0] * 3), 5)
     assert max(held) - min(held) < 1e-6 * held[0] and abs(held[0] / plain[0] - 1.0) > 0.01, held
 
+
 # Velocities of slow motion beside the whole position (12.3) are told, once, and not believed.
 def slow(time: float):
     return [2.0 * math.sin(0.05 * time) + math.sin(0.8 * time), 0.0, 0.0], [0.1 * math.cos(0.05 * time), 0.0, 0.0]
@@ -237,6 +253,7 @@ believed, right = (runs(motion, 800, words)[400:] for motion, words in ((slow, [
 off = math.dist(believed, right) / math.hypot(*right)
 print(f"velocities of slow motion alone: {off:.2%} rms")
 assert off < 0.02
+
 
 # Positions with a millimetre of noise: the cut-off arrives, and does its work.
 def noise(number: int) -> float:
@@ -296,7 +313,7 @@ for options in ([], ["--flat-names"]):
     assert seen.isascii() and ("." in seen) != bool(options), seen
     print(seen)
     for motion, words in ((still, []), (moving, ["more than its breaking load of 1500.0 kN"])):
-        there = (lambda time, motion=motion: ([50.0 + motion(time)[0][0], *motion(time)[0][1:]], motion(time)[1]))
+        there = lambda time, motion=motion: ([50.0 + motion(time)[0][0], *motion(time)[0][1:]], motion(time)[1])
         tensions.append(runs(there, 600 if words else 5, words, fmu=packed, seen=seen, prefix=prefix))
 # The line of the scene, not the built-in one, and the same by either name.
 assert tensions[:2] == tensions[2:] and len(tensions[1]) == 600
