@@ -1,9 +1,9 @@
-"""What the FMU tells and takes in masters of other people: libcosim and Ecos, each beside the same steps by plain C calls.
+"""What the FMU tells and takes in masters of other people: FMPy, libcosim and Ecos, each beside the same steps by plain C calls.
 
 usage: masters.py MOORLINE.fmu MOORLINE
 
-The second is the command, which packs FMUs of scenes with names that are not ASCII. What neither master calls (directional derivatives, states)
-is tested by plain calls alone. Needs libcosimpy and ecospy (PyPI), as osp.py and ecos.py do.
+The second is the command, which packs FMUs of scenes with names that are not ASCII. Derivatives, which of
+these FMPy alone asks for, are compared with differences there. Needs libcosimpy and ecospy (PyPI), as osp.py and ecos.py do.
 """
 
 from __future__ import annotations
@@ -20,7 +20,10 @@ import sys
 import tempfile
 from xml.sax.saxutils import quoteattr
 
+import fmpy
 from ecospy import EcosLib, EcosSimulation, EcosSimulationStructure
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 from libcosimpy.CosimManipulator import CosimManipulator
@@ -31,6 +34,14 @@ STEP = 0.1
 # The same numbers in other words: clocks that are sums or nanoseconds differ by their rounding. Where it makes another choice of steps, results
 # are as far apart as the default tolerance allows.
 ALIKE, ROUGHLY = 1e-7, 5e-3
+
+
+def said_to_fmpy(_, instance, status, category, message):
+    print(f"category={(category or b'').decode()} status={status}: {message.decode()}", flush=True)
+
+
+callbacks = fmi2CallbackFunctions()
+callbacks.logger = fmi2CallbackLoggerTYPE(said_to_fmpy)
 
 
 class Osp:
@@ -105,6 +116,44 @@ class Ecos:
         self.structure.free()
 
 
+class Fmpy:
+    """One FMU by FMPy's classes, as its scripts use them; warnings as FMPy itself prints them."""
+
+    def __init__(self, fmu: pathlib.Path, values: dict, step: float = STEP, start: float = 0.0):
+        description = fmpy.read_model_description(str(fmu), validate=False)
+        self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.folder, self.length, self.start, self.number = fmpy.extract(str(fmu)), step, start, 0
+        identifier = description.coSimulation.modelIdentifier
+        self.slave = FMU2Slave(guid=description.guid, unzipDirectory=self.folder, modelIdentifier=identifier, instanceName="line")
+        self.slave.instantiate(callbacks=callbacks)
+        self.slave.setupExperiment(startTime=start)
+        for name, value in values.items():
+            (self.slave.setReal if type(value) is float else self.slave.setInteger)([self.reference[name]], [value])
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+
+    def set(self, values: dict):
+        self.slave.setReal([self.reference[name] for name in values], list(values.values()))
+
+    def step(self) -> bool:
+        try:
+            self.slave.doStep(self.start + self.number * self.length, self.length)
+        except FMICallException:
+            return False
+        self.number += 1
+        return True
+
+    def real(self, name: str) -> float:
+        return self.slave.getReal([self.reference[name]])[0]
+
+    def integer(self, name: str) -> int:
+        return self.slave.getInteger([self.reference[name]])[0]
+
+    def close(self):
+        self.slave.freeInstance()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
 class Plain:
     """The same by calls of the C functions, with a clock that is exact."""
 
@@ -136,7 +185,7 @@ class Plain:
         self.line.free()
 
 
-MASTERS = (Plain, Osp, Ecos)
+MASTERS = (Plain, Fmpy, Osp, Ecos)
 # How each writes a warning of an FMU.
 MARKS = ("category=logStatusWarning", "fmi2Warning")
 
@@ -240,6 +289,27 @@ for place in (-5.0, 5.0):
     assert max(held) - min(held) < 1e-6 * held[0] and abs(held[0] / plain[0] - 1.0) > 0.01, held
 
 
+# And the derivatives there are those of the equilibrium: of FMPy's calls, against forces that settle anew after the input was set.
+host = Fmpy(line_fmu, {})
+host.slave.reset()
+host.slave.setupExperiment(startTime=0.0)
+host.slave.enterInitializationMode()
+forces = [host.reference[f"force.{axis}"] for axis in "xyz"]
+for axis in "xyz":
+    name = f"fairlead.position.{axis}"
+    exact = host.slave.getDirectionalDerivative(forces, [host.reference[name]], [1.0])
+    ends = []
+    for change in (1e-3, -1e-3):
+        host.set({name: change})
+        ends.append(host.slave.getReal(forces))
+    host.set({name: 0.0})
+    for k, (one, other) in enumerate(zip(*ends)):
+        assert abs(exact[k] - (one - other) / 2e-3) < 1e-4 * max(map(abs, exact)), (axis, exact, ends)
+print(f"stiffness in initialization mode: {exact[2] / 1e3:.2f} kN/m in z by z")
+host.slave.exitInitializationMode()
+host.close()
+
+
 # Velocities of slow motion beside the whole position (12.3) are told, once, and not believed.
 def slow(time: float):
     return [2.0 * math.sin(0.05 * time) + math.sin(0.8 * time), 0.0, 0.0], [0.1 * math.cos(0.05 * time), 0.0, 0.0]
@@ -296,7 +366,7 @@ for master in MASTERS:
     assert master is not Ecos or "not allowed after a discarded step" in said[0], said[0]
 
 # Clocks (12.7): nanoseconds and sums of thirds and thirtieths, from 0 and from later. (Ecos 0.7.2 tells an FMU when it starts, and begins at 0.)
-for step, start, steps, masters in ((1 / 30, 0.0, 3000, MASTERS), (1 / 3, 0.0, 300, MASTERS), (1 / 30, 1000.1, 300, MASTERS[:2])):
+for step, start, steps, masters in ((1 / 30, 0.0, 3000, MASTERS), (1 / 3, 0.0, 300, MASTERS), (1 / 30, 1000.1, 300, MASTERS[:3])):
     assert len(runs(moving, steps, step=step, start=start, alike=ROUGHLY, masters=masters)) == steps
 
 # Names that are not ASCII, flat names, and a load under which a line breaks (12.5, 12.4).
