@@ -181,7 +181,7 @@ mod tests {
 
     fn of(text: &str, sets: &[&str]) -> Result<Vec<u64>, String> {
         let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-        let loaded = read::built_in(&sets).expect("a scene");
+        let loaded = crate::scene::read::built_in(&sets).expect("a scene");
         wanted(&loaded, text).map_err(|error| {
             assert_eq!(error.exit_code(), 2);
             error.to_string()
