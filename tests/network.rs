@@ -313,9 +313,7 @@ fn a_load_from_a_file_moves_a_body_as_an_oscillator() {
 /// A fairlead, a point on two chains, and a buoy under water on two more lines.
 fn moored_buoy() -> Value {
     let chain = json!({"ea": 4e8, "mass": 110.0, "diameter": 0.07, "submerged_weight": 940.0, "drag": {"normal": 1.2}, "added_mass": {"normal": 1.0}});
-    let line = |fairlead: Value, anchor: Value, length: f64| {
-        json!({"fairlead": fairlead, "anchor": anchor, "sections": [{"type": "chain", "length": length, "elements": 10}]})
-    };
+    let line = |fairlead: Value, anchor: Value, length: f64| json!({"fairlead": fairlead, "anchor": anchor, "sections": [{"type": "chain", "length": length, "elements": 10}]});
     json!({
         "environment": {"depth": 150.0}, "line_types": {"chain": chain},
         "lines": [

@@ -131,6 +131,12 @@ impl Newton {
         self.recall(&Memory::none());
     }
 
+    /// Lets lines of a network be looked at until all are done, for comparison.
+    #[cfg(test)]
+    pub fn look_at_all(&mut self) {
+        self.open.iter_mut().for_each(|open| open.lasting = true);
+    }
+
     /// What the next stage takes over from those before.
     pub fn memory(&self) -> &Memory {
         &self.memory

@@ -40,7 +40,12 @@ impl Newton {
                 self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
             }
             last = size;
-            let sizes = Sizes { c_u: weights.u.abs(), length: criteria.length, emphasis: criteria.emphasis, tolerance: criteria.tolerance };
+            let sizes = Sizes {
+                c_u: weights.u.abs(),
+                length: criteria.length,
+                emphasis: criteria.emphasis,
+                tolerance: criteria.tolerance,
+            };
             match open.judge(line, &self.increment, &sizes, &mut self.memory.rates) {
                 Left::Nothing => return Ok(()),
                 Left::Masters => {}
