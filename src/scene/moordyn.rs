@@ -4,6 +4,8 @@
 //! a scene counts from the fairlead.
 
 pub mod beside;
+pub mod coupled;
+pub mod driver;
 pub mod from_scene;
 pub mod options;
 pub mod outputs;

@@ -119,9 +119,9 @@ const OF_ITS_OWN: [&str; 31] = [
     "numsegs",
 ];
 
-/// Reads the options.
-pub fn read(section: Option<&Section>, file: &str) -> Result<Options, Error> {
-    let mut options = Options::default();
+/// Reads the options; `start` has those that the file does not say.
+pub fn read(section: Option<&Section>, file: &str, start: Options) -> Result<Options, Error> {
+    let mut options = start;
     let mut ignored: Vec<&str> = Vec::new();
     let (mut across, mut along) = (None, None);
     for row in section.map(|section| section.rows.as_slice()).unwrap_or_default() {
