@@ -331,6 +331,9 @@ fn moored_buoy() -> Value {
     })
 }
 
+/// What wakes a group, in words and in deed.
+type Way<'a> = (&'a str, &'a dyn Fn(&mut Group));
+
 /// Lines that meet, and what they hang on, take no steps and no iterations while nothing moves, however long; what they would do is less than the
 /// hundredth of the tolerance that is promised; and they wake when an end is driven, a force applied to a body or changed on a point: then they do what
 /// those do that never rested, also after a rollback. In waves and in a current that may change there is no rest.
@@ -365,7 +368,7 @@ fn lines_that_meet_cost_nothing_at_rest_until_something_moves() {
         let (times, to) = (vec![0.0, rest, rest + 5.0], [38.0, 1.0, -1.0]);
         motion::Path::Table(Arc::new(Table { times, positions: vec![fairlead, fairlead, to], velocities: vec![[0.0; 3]; 3] }))
     };
-    let ways: [(&str, &dyn Fn(&mut Group)); 3] = [
+    let ways: [Way; 3] = [
         ("an end is driven", &|_| ()),
         ("a body is pulled at", &|group| group.apply(0, Vector3::new(2.0e4, 0.0, 0.0), Vector3::zeros())),
         ("a point is pulled at", &|group| group.pull(0, Vector3::new(0.0, 2.0e4, 0.0))),
