@@ -607,10 +607,9 @@ fn airy(rows: &[[f64; 4]], sine: bool, depth: f64, [x, y, z]: [f64; 3], time: f6
         let (sine, cosine) = phase(row, k).sin_cos();
         let level = size * omega * (k * above).cosh() / (k * depth).sinh();
         let upright = size * omega * (k * above).sinh() / (k * depth).sinh();
-        let along = [row[3].cos(), row[3].sin()];
-        for axis in 0..2 {
-            flow[axis] += level * sine * along[axis];
-            flow[3 + axis] += level * omega * cosine * along[axis];
+        for (axis, along) in [row[3].cos(), row[3].sin()].into_iter().enumerate() {
+            flow[axis] += level * sine * along;
+            flow[3 + axis] += level * omega * cosine * along;
         }
         flow[2] += upright * cosine;
         flow[5] -= upright * omega * sine;
@@ -626,8 +625,9 @@ fn waves_of_files_beside_a_deck_are_their_sum() {
     let sea = |kind: &str, name: &str, text: &str| {
         std::fs::write(place.join(name), text).expect("written");
         let deck = edited("90      WtrDpth", &format!("{kind} WaveKin\n0.5 dtWave\n90      WtrDpth"));
-        let loaded = parse(&deck, "deck.txt", &place, &[]).unwrap_or_else(|error| panic!("{error}"));
-        Waves::of(&loaded.scene.environment).expect("waves")
+        let at_once = [String::from("environment.waves.ramp=0")];
+        let loaded = parse(&deck, "deck.txt", &place, &at_once).unwrap_or_else(|error| panic!("{error}"));
+        Waves::of(&loaded.scene.environment).expect("waves").one_by_one()
     };
     let (nodes, late) = ([[12.0, -7.0, -4.0], [-150.0, 40.0, -30.0], [-290.0, 200.0, -80.0]], 1.0e3);
     let same = |waves: &Waves, rows: &[[f64; 4]], sine: bool| {
@@ -635,7 +635,7 @@ fn waves_of_files_beside_a_deck_are_their_sum() {
             let time = late + 0.37 * f64::from(step);
             for node in nodes {
                 let (surface, flow) = airy(rows, sine, 90.0, node, time);
-                let clock = Clock::at_rest(time);
+                let clock = Clock { now: time, start: 0.0 };
                 assert!((waves.elevation(&clock, node[0], node[1]) - surface).abs() < 1e-9, "η at {node:?}, {time}");
                 let found = waves.motions(&clock, 1, &node.map(|x| [x; 8]));
                 for (way, expected) in flow.iter().enumerate() {

@@ -23,7 +23,7 @@ AT_REST = 1.0e-6
 IN_MOTION = 0.02
 # In steps of a two-hundredth of a second, what a tension does from step to step beside what it does in two: the share of its range. The
 # motion has a period of 27 s.
-ALTERNATING = 0.005
+ALTERNATING = 0.01
 
 
 def out(*words):

@@ -281,15 +281,15 @@ impl Making<'_> {
             let whole = deck.stretch(deck.lines[upper].id).and_then(|(id, _)| deck.lines.iter().position(|line| line.id == id));
             let into = if all[upper].is_some() { Some(upper) } else { whole };
             let Some(under) = all[lower].take() else { continue };
+            let name = whole.map_or_else(String::new, |whole| DeckLine::name_of(deck.lines[whole].id));
             let Some(into) = into.and_then(|into| all[into].as_mut()) else { continue };
             into.sections.extend(under.sections);
             (into.anchor, into.anchor_on) = (under.anchor, under.anchor_on);
             self.warnings.push(format!(
-                "line {}: rod {} has no length: {} goes on as a section of {}",
+                "line {}: rod {} has no length: {} goes on as a section of {name}",
                 rod.row,
                 rod.id,
-                DeckLine::name_of(deck.lines[lower].id),
-                into.name
+                DeckLine::name_of(deck.lines[lower].id)
             ));
         }
         Ok(all.into_iter().zip(&deck.lines).filter_map(|(line, own)| Some((line?, own.row))).unzip())
@@ -492,7 +492,8 @@ impl Making<'_> {
             |name: String| self.bodies.iter().any(|body| body.name == name) || self.points.iter().any(|point| point.name == name);
         let bodies = self.deck.bodies.iter().map(|body| (DeckBody::name_of(body.id), body.row, body.attachment));
         let points = self.deck.points.iter().map(|point| (DeckPoint::name_of(point.id), point.row, point.attachment));
-        let rods = self.deck.rods.iter().map(|rod| (DeckRod::name_of(rod.id), rod.row, rod.attachment));
+        let rods = self.deck.rods.iter().filter(|rod| self.deck.joined(rod.id).is_none());
+        let rods = rods.map(|rod| (DeckRod::name_of(rod.id), rod.row, rod.attachment));
         let lonely: Vec<String> = bodies
             .chain(points)
             .chain(rods)
