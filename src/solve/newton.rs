@@ -90,6 +90,8 @@ pub struct Newton {
     start: State,
     /// Work done so far.
     pub effort: Effort,
+    /// Whether steps are so short that the contraction is to be looked at now and then.
+    pub watched: bool,
 }
 
 /// Largest change of c_u (relative) for which an old factor is still tried.
@@ -100,6 +102,16 @@ const DAMPED: usize = 25;
 const SMOOTH: usize = 2;
 /// Contraction beyond which the tangent is factored anew.
 const SLOW: f64 = 0.15;
+/// An iteration that ends with its first increment does not show how it contracts. In steps so short that all end so, the factor would grow old
+/// unseen, and what a stage leaves comes back three times as large in the next prediction, with the other sign each step. So, where steps
+/// are watched, what is known of the contraction grows by this with each such stage,
+const AGEING: f64 = 1.05;
+/// from here on a second increment is made, which shows it,
+const UNSURE: f64 = 0.5;
+/// unless the first is below this part of the tolerance,
+const FAINT: f64 = 1.0e-3;
+/// and a factor that contracts no better than this is made anew: a third would be too much.
+const GROWING: f64 = 0.25;
 
 impl Newton {
     /// A solver for a line.
@@ -115,6 +127,7 @@ impl Newton {
             residual: Field::new(nodes),
             start: State::new(nodes),
             effort: Effort::default(),
+            watched: false,
         }
     }
 
@@ -284,12 +297,14 @@ impl Newton {
     /// Modified Newton: whole steps with an old factor, as long as they contract.
     fn iterate(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
-        if !self.memory.weights().is_some_and(fresh) || self.remake(line).is_err() {
+        let old = self.memory.weights().is_some_and(fresh) && self.remake(line).is_ok();
+        if !old {
             (self.memory.rate, self.memory.loose_rate) = (1.0, 1.0);
             self.factor(line, &motion(trial), weights, None)?;
         }
         let (mut last, mut last_loose) = (f64::INFINITY, f64::INFINITY);
         let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
+        let unsure = old && self.watched && self.memory.rate >= UNSURE;
         for iteration in 0..criteria.iterations {
             self.find_increment(line, trial, if iteration == 0 { Asking::First } else { Asking::Again });
             let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
@@ -304,12 +319,21 @@ impl Newton {
             }
             let left = |size: f64, rate: f64| size * (rate / (1.0 - rate).max(0.1)).min(1.0) < criteria.tolerance;
             if left(size, self.memory.rate) {
+                if iteration == 0 && unsure && size > FAINT * criteria.tolerance {
+                    last = size;
+                    continue;
+                }
                 let loose = line.loose(&self.increment) * scales[0] * criteria.emphasis;
                 if loose > 0.0 && last_loose.is_finite() {
                     self.memory.loose_rate = (loose / last_loose).max(0.3 * self.memory.loose_rate).min(1.0);
                 }
                 last_loose = loose;
                 if left(loose, self.memory.loose_rate) {
+                    if iteration == 0 && self.watched && self.memory.rate < 1.0 {
+                        self.memory.rate = (AGEING * self.memory.rate).min(0.99);
+                    } else if unsure && contraction > GROWING {
+                        self.forget();
+                    }
                     return Ok(());
                 }
                 last = size;
