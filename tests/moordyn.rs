@@ -5,6 +5,8 @@ mod support;
 
 use moorline::scene::bodies::{Inertia, Mount};
 use moorline::scene::read::{Loaded, load, parse};
+use moorline::sea::clock::Clock;
+use moorline::sea::waves::Waves;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use support::mooring::settled;
@@ -221,7 +223,10 @@ fn every_fault_is_named_with_its_line_and_what_is_expected() {
         ("90      WtrDpth", "90      WtrDpht", &["line 30", "option", "did you mean `wtrdpth`"]),
         ("90      WtrDpth    water depth (m)", "90", &["line 30", "1 of the 2 values"]),
         ("90      WtrDpth", "nan      kBot", &["line 30", "kBot", "finite"]),
-        ("90      WtrDpth", "2      WaveKin", &["line 30", "WaveKin", "environment.waves"]),
+        ("90      WtrDpth", "4      WaveKin", &["line 30", "WaveKin", "2, 3 and 7 are files"]),
+        ("90      WtrDpth", "7      WaveKin", &["wave_frequencies.txt"]),
+        ("90      WtrDpth", "3      WaveKin", &["wave_elevation.txt"]),
+        ("90      WtrDpth", "0      dtWave", &["line 30", "dtWave", "greater than 0"]),
         ("90      WtrDpth", "3      Currents", &["line 30", "Currents", "profile"]),
         ("90      WtrDpth", "0.4      MU_KT", &["line 30", "MU_KT, MU_KA"]),
         ("(#)   (word/ID)   (m)     (m)     (m)     (kg)   (m^3)   (m^2)  (-)\n", "", &["line 10", "units of the columns"]),
@@ -574,6 +579,188 @@ fn faults_of_drivers_and_tables_are_named() {
         let output = program::moorline(&place, arguments);
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stderr).contains("--motion"), "{output:?}");
+    }
+}
+
+/// The wave number that goes with a frequency by linear theory, by bisection: k of ω² = g k tanh(k d).
+fn number_of_wave(omega: f64, depth: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 10.0);
+    for _ in 0..200 {
+        let k = 0.5 * (low + high);
+        if GRAVITY * k * (k * depth).tanh() < omega * omega { low = k } else { high = k }
+    }
+    0.5 * (low + high)
+}
+
+/// Elevation, and velocity and acceleration along x, y and z at a place after Wheeler, of rows of frequency, complex amplitude and direction. `sine`: as
+/// WaveKin 7 has them, η = |A| sin(ω t - k·x + arg A), else as WaveKin 2, with the cosine. Airy's formulas, from a textbook.
+fn airy(rows: &[[f64; 4]], sine: bool, depth: f64, [x, y, z]: [f64; 3], time: f64) -> (f64, [f64; 6]) {
+    let phase = |[omega, real, imaginary, beta]: &[f64; 4], k: f64| {
+        let shift = if sine { 0.0 } else { std::f64::consts::FRAC_PI_2 };
+        omega * time - k * (x * beta.cos() + y * beta.sin()) + imaginary.atan2(*real) + shift
+    };
+    let surface: f64 = rows.iter().map(|row| row[1].hypot(row[2]) * phase(row, number_of_wave(row[0], depth)).sin()).sum();
+    let above = (z + depth) * depth / (depth + surface);
+    let mut flow = [0.0; 6];
+    for row in rows {
+        let (omega, size, k) = (row[0], row[1].hypot(row[2]), number_of_wave(row[0], depth));
+        let (sine, cosine) = phase(row, k).sin_cos();
+        let level = size * omega * (k * above).cosh() / (k * depth).sinh();
+        let upright = size * omega * (k * above).sinh() / (k * depth).sinh();
+        for (axis, along) in [row[3].cos(), row[3].sin()].into_iter().enumerate() {
+            flow[axis] += level * sine * along;
+            flow[3 + axis] += level * omega * cosine * along;
+        }
+        flow[2] += upright * cosine;
+        flow[5] -= upright * omega * sine;
+    }
+    (surface, flow)
+}
+
+/// The waves of files beside a deck are those of the same sum, made apart from the solver, at nodes of a line: WaveKin 7 as they stand, also two of one
+/// frequency, WaveKin 2 put on even frequencies, which the rows of the test need not be, WaveKin 3 through the samples of the record.
+#[test]
+fn waves_of_files_beside_a_deck_are_their_sum() {
+    let place = program::directory("waves");
+    let sea = |kind: &str, name: &str, text: &str| {
+        std::fs::write(place.join(name), text).expect("written");
+        let deck = edited("90      WtrDpth", &format!("{kind} WaveKin\n0.5 dtWave\n90      WtrDpth"));
+        let at_once = [String::from("environment.waves.ramp=0")];
+        let loaded = parse(&deck, "deck.txt", &place, &at_once).unwrap_or_else(|error| panic!("{error}"));
+        Waves::of(&loaded.scene.environment).expect("waves").one_by_one()
+    };
+    let (nodes, late) = ([[12.0, -7.0, -4.0], [-150.0, 40.0, -30.0], [-290.0, 200.0, -80.0]], 1.0e3);
+    let same = |waves: &Waves, rows: &[[f64; 4]], sine: bool| {
+        for step in 0..40 {
+            let time = late + 0.37 * f64::from(step);
+            for node in nodes {
+                let (surface, flow) = airy(rows, sine, 90.0, node, time);
+                let clock = Clock { now: time, start: 0.0 };
+                assert!((waves.elevation(&clock, node[0], node[1]) - surface).abs() < 1e-9, "η at {node:?}, {time}");
+                let found = waves.motions(&clock, 1, &node.map(|x| [x; 8]));
+                for (way, expected) in flow.iter().enumerate() {
+                    assert!(
+                        (found[way][0] - expected).abs() < 1e-8,
+                        "way {way} at {node:?}, {time}: {} {expected}",
+                        found[way][0]
+                    );
+                }
+            }
+        }
+    };
+    let text = "0.0 0.0 0.0\n0.35 1.0 0.0 0.0\n0.8 -0.2 0.6 -1.1\n0.8 0.1 0.3 2.0\n";
+    let rows = [[0.35, 1.0, 0.0, 0.0], [0.8, -0.2, 0.6, -1.1], [0.8, 0.1, 0.3, 2.0]];
+    same(&sea("7", "wave_frequencies.txt", text), &rows, true);
+
+    // Least difference 0.2: 0.2, 0.4, 0.6, 0.8, 1.0, the third and fourth of them between rows.
+    let text = "0.0 0.0 0.0\n0.2 0.5 0.1 0.3\n0.4 0.9 -0.3 0.3\n1.0 0.3 0.3 0.9\n";
+    let rows = [[0.2, 0.5, 0.1, 0.3], [0.4, 0.9, -0.3, 0.3], [0.6, 0.7, -0.1, 0.5], [0.8, 0.5, 0.1, 0.7], [1.0, 0.3, 0.3, 0.9]];
+    same(&sea("2", "wave_frequencies.txt", text), &rows, false);
+
+    // A record of whole periods, given every 0.25 s, sampled every 0.5 s: 2 sin(2π t/10) comes back as it was.
+    let record =
+        |n: i32| format!("{:.2} {:.12}", 0.25 * f64::from(n), 2.0 * (std::f64::consts::TAU * 0.025 * f64::from(n)).sin());
+    let text = (0..=160).map(record).collect::<Vec<_>>().join("\n");
+    let omega = std::f64::consts::TAU / 10.0;
+    same(&sea("3", "wave_elevation.txt", &text), &[[omega, 2.0, 0.0, 0.0]], true);
+}
+
+/// Two lines that a free rod of no length joins are one: a cable in three parts hangs and moves as the same cable in one, whatever the order of
+/// the rods; what the file asks for by the numbers of its parts is found there, and at a joint both sides have one place and one tension.
+#[test]
+fn rods_of_no_length_make_one_line() {
+    let place = program::directory("joints");
+    let head = "a cable in parts\n---- LINE TYPES ----\nn d m EA BA EI Cd Ca CdAx CaAx\n(-) (m)\n\
+                cable 0.1 30 2e7 -0.8 4e4 1 1 0.1 0\n";
+    let rods = |first: u32, second: u32| {
+        format!(
+            "---- ROD TYPES ----\nn d m Cd Ca CdEnd CaEnd\n(-) (m)\nconn 0.1 30 1 1 1 1\n---- RODS ----\nID\n(#)\n\
+             {first} conn Free 30 0 -40 30 0 -40 0\n{second} conn Free 10 0 -30 10 0 -30 0\n"
+        )
+    };
+    let points = "---- POINTS ----\nID type X\n(#) (-) (m)\n1 Fixed 60 0 -60 0 0 0 0\n2 Coupled 0 0 -5 0 0 0 0\n";
+    let tail =
+        |outputs: &str| format!("---- OPTIONS ----\n100 WtrDpth\n0.5 dtOut\n---- OUTPUTS ----\n{outputs}\n---- end ----\n");
+    // Line 3 is the lowest; its numbers do not rise with the height.
+    let parts = |rods: &str, asked: &str| {
+        format!(
+            "{head}{rods}{points}---- LINES ----\nID\n(#)\n1 cable R4B 2 30 6\n2 cable R7B R4A 25 5\n3 cable 1 R7A 35 7\n{}",
+            tail(asked)
+        )
+    };
+    let whole = format!(
+        "{head}{points}---- LINES ----\nID\n(#)\n1 cable 1 2 90 18\n{}",
+        tail("FairTen1 AnchTen1 L1N7PX L1N7PZ L1N12T Con1FX")
+    );
+    let asked = "FairTen1 AnchTen3 L3N7PX L2N0PZ L1N0T Con1FX FairTen3 AnchTen2 L2NAPX L3N3PX";
+    let columns = |name: &str, text: &str| -> Vec<Vec<f64>> {
+        std::fs::write(place.join(name), text).expect("written");
+        let moving = r#"bodies[0].motion={"kind":"sinusoidal","period":8,"ramp":8,"sine":[1.0,0,1.0,0,0,0]}"#;
+        let output = program::moorline(&place, &["run", name, "-o", "out", "--set", "run.duration=12", "--set", moving]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let out = program::read(&place.join("out").join(Path::new(name).with_extension("out")));
+        out.lines().skip(2).map(|row| row.split('\t').map(|x| x.parse().expect("a number")).collect()).collect()
+    };
+    let one = columns("whole.txt", &whole);
+    for (name, rods) in [("up.txt", rods(7, 4)), ("down.txt", rods(4, 7).replace("30 0 -40", "9 0 -9"))] {
+        let several = columns(name, &parts(&rods, asked));
+        assert_eq!(several.len(), one.len());
+        for (row, own) in several.iter().zip(&one) {
+            for column in 1..=6 {
+                let allowed = if matches!(column, 3 | 4) { 1e-3 } else { 2e-3 * own[1] };
+                assert!((row[column] - own[column]).abs() < allowed, "{name}, column {column}: {row:?} {own:?}");
+            }
+            assert!((row[7] - row[8]).abs() < 1e-6 * row[7], "one tension at the joint: {row:?}");
+            assert!((row[9] - row[3]).abs() < 1e-9, "one place of the joint: {row:?}");
+            assert!(row[10] > row[3] && row[10] < 60.0, "a node of the lowest part: {row:?}");
+        }
+    }
+    let loaded = parse(&parts(&rods(7, 4), asked), "deck.txt", &place, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let lengths: Vec<f64> = loaded.scene.lines[0].sections.iter().map(|section| section.length).collect();
+    assert_eq!((loaded.scene.lines.len(), lengths), (1, vec![30.0, 25.0, 35.0]));
+    assert!(
+        loaded.warnings.iter().any(|warning| warning.contains("line3 goes on as a section of line1")),
+        "{:?}",
+        loaded.warnings
+    );
+    // Two ends on one side, and lines in a ring, are refused.
+    let refused = |changes: &[(&str, &str)]| {
+        message(&changes.iter().fold(parts(&rods(7, 4), asked), |text, (from, to)| text.replace(from, to)))
+    };
+    assert!(refused(&[("R7B R4A", "R7A R4A")]).contains("joins two lines"));
+    let ring = refused(&[("1 cable R4B 2", "1 cable R4B R7A"), ("3 cable 1 R7A", "3 cable 1 2")]);
+    assert!(ring.contains("go round in a ring"), "{ring}");
+}
+
+/// What is wrong with a file of waves is said with its name, line and what is expected.
+#[test]
+fn faults_of_files_of_waves_are_named() {
+    let place = program::directory("bad-waves");
+    let refused = |kind: &str, text: &str| {
+        let name = if kind == "3" { "wave_elevation.txt" } else { "wave_frequencies.txt" };
+        std::fs::write(place.join(name), text).expect("written");
+        let deck = edited("90      WtrDpth", &format!("{kind} WaveKin\n90      WtrDpth"));
+        let error = parse(&deck, "deck.txt", &place, &[]).expect_err(text);
+        assert_eq!(error.exit_code(), 2, "{error}");
+        assert!(error.to_string().contains(name), "{error}");
+        error.to_string()
+    };
+    for (kind, text, part) in [
+        ("7", "0.1 1 0\n0.2 1 0\n", "line 1"),
+        ("7", "0 0 0\n0.2 1\n", "2 of the 3 values"),
+        ("7", "0 0 0\n0.2 one 0\n", "1 of the 3 values"),
+        ("7", "0 0 0\n0.2 1 0 90\n", "direction in rad"),
+        ("7", "0 1 0\n0.2 1 0\n", "no amplitude at frequency 0"),
+        ("7", "0 0 0\n", "needs 2 rows"),
+        ("7", "0 0 0\n0.4 0 0\n", "no row has an amplitude"),
+        ("2", "0 0 0\n0.4 1 0\n0.4 1 0\n", "a larger frequency"),
+        ("3", "0 0\n1 1\n1 2\n", "a later time"),
+        ("3", "0 0\n1 1\n", "at least 16 rows"),
+        ("3", "time eta\n", "no row of time and elevation"),
+    ] {
+        let message = refused(kind, text);
+        println!("{message}");
+        assert!(message.contains(part), "{text:?}: {message:?} has no {part:?}");
     }
 }
 

@@ -90,6 +90,12 @@ impl OpenLines {
         self.run();
     }
 
+    /// Lets all lines be looked at in the next iteration.
+    pub fn reopen(&mut self) {
+        self.open.fill(true);
+        self.run();
+    }
+
     /// Puts the lines that are looked at together to runs. Between two of them are nodes enough for a batch of elements to end in; a shorter line
     /// between is looked at too.
     fn run(&mut self) {
