@@ -142,7 +142,6 @@ fn scene() -> Scene {
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Mode {
     Auto = 1,
-    HoldVelocity = 3,
     Delay = 4,
 }
 
