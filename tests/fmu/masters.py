@@ -31,9 +31,9 @@ from libcosimpy.CosimObserver import CosimObserver
 from master import OK, WARNING, Fmu, Line, surge
 
 STEP = 0.1
-# The same numbers in other words: clocks that are sums or nanoseconds differ by their rounding. Where it makes another choice of steps, results
-# are as far apart as the default tolerance allows.
-ALIKE, ROUGHLY = 1e-7, 5e-3
+# The same numbers in other words: clocks that are sums or nanoseconds differ by their rounding, which may make another choice of steps: results are
+# as far apart as the default tolerance allows, and a few times that where a line is torn about.
+ALIKE, ROUGHLY = 1e-3, 5e-3
 
 
 def said_to_fmpy(_, instance, status, category, message):
@@ -344,10 +344,10 @@ without, filtered = rough(runs(shaken, 600)[300:]), rough(runs(shaken, 600, **{"
 print(f"1 mm of noise: {without:.0f} N from step to step, filtered {filtered:.0f} N")
 assert filtered < 0.1 * without
 
-# Warnings (12.4) are heard, once each. A chain that falls in a heap goes another way from any rounding on.
+# Warnings (12.4) are heard, once each.
 runs(lambda _: ([70.0, 0.0, 0.0], [0.0] * 3), 5, ["70.0 m from where the scene has it"])
 runs(lambda t: ([0.0 if t < 0.95 else 8.0, 0.0, 0.0], [0.0] * 3), 30, ["is given 8.00 m from where its path had led it"], alike=ROUGHLY)
-runs(lambda t: ([min(0.3 * t * t, 60.0), 0.0, 0.0], [0.6 * t if t < math.sqrt(200.0) else 0.0, 0.0, 0.0]), 150, ["slack"], alike=math.inf)
+runs(lambda t: ([5.0 * t * t, 0.0, -2.5 * t * t], [10.0 * t, 0.0, -5.0 * t]), 10, ["slack"], alike=ROUGHLY)
 runs(lambda t: ([-min(t, 32.0), 0.0, 0.0], [-1.0 if t < 32.0 else 0.0, 0.0, 0.0]), 400, ["lifts its anchor"])
 # A step that is not done to its end gives its reason as a warning, because libcosim says nothing of a Discard but that the step failed. Ecos goes
 # on, and hears that it may not.
