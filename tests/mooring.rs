@@ -426,3 +426,35 @@ fn lines_that_meet_pull_as_each_alone_and_cost_little_more() {
     println!("{joined} elements looked at together, {apart} apart");
     assert!((joined as f64) < 2.2 * apart as f64, "{joined} elements looked at together, {apart} apart");
 }
+
+/// Where the line that is moved is the last of its group, and looked at alone, its elements begin anywhere in the rows that are read side by side, and end
+/// with them: of any number of elements it pulls as it does as the second of them, to a thousandth of its tension at rest.
+#[test]
+fn a_line_pulls_the_same_wherever_it_stands_among_those_it_meets() {
+    for elements in 3..=11 {
+        let tensions = |last: bool| {
+            let mut scene = farm(3);
+            let lines = scene["lines"].as_array_mut().unwrap_or_else(|| panic!("lines"));
+            lines.iter_mut().for_each(|line| line["sections"][0]["elements"] = json!(elements));
+            if last {
+                let moved = lines.remove(1);
+                lines.push(moved);
+            }
+            let moved = if last { lines.len() - 1 } else { 1 };
+            let loaded = load(&scene);
+            let Ok(Part::Group(mut group)) = Part::of_scene(&loaded, &partition::parts(&loaded.scene)[0]) else {
+                panic!("no group")
+            };
+            group.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
+            let rows = 1..=150;
+            rows.map(|row| {
+                group.advance(0.1 * f64::from(row)).unwrap_or_else(|error| panic!("{error}"));
+                group.outputs(moved).tension
+            })
+            .collect::<Vec<f64>>()
+        };
+        let (second, last) = (tensions(false), tensions(true));
+        let off = second.iter().zip(&last).map(|(one, other)| (one - other).abs() / second[0]).fold(0.0, f64::max);
+        assert!(off < 1.0e-3, "{elements} elements: {off:.1e} of its tension at rest");
+    }
+}
