@@ -316,7 +316,7 @@ impl Newton {
     }
 
     /// Has a factor for a stage at hand: the one of before where it may do, or a new one, of which is not known how it contracts;
-    /// returns whether it is an old one.
+    /// returns whether the stage is to show how the old one does.
     fn prepare(&mut self, line: &dyn System, weights: &Weights, trial: &State) -> Result<bool, Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
         let old = self.memory.weights().is_some_and(fresh) && self.remake(line).is_ok();
@@ -325,7 +325,7 @@ impl Newton {
             self.memory.rates.fill(1.0);
             self.factor(line, &motion(trial), weights, None)?;
         }
-        Ok(old)
+        Ok(old && self.watched && self.memory.rate >= UNSURE)
     }
 
     /// At the end of a stage: what is known of the contraction grows old where it was not seen, and a factor that contracts badly is dropped.
@@ -339,21 +339,13 @@ impl Newton {
 
     /// Modified Newton: whole steps with an old factor, as long as they contract.
     fn iterate(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
-        let old = self.prepare(line, weights, trial)?;
+        let unsure = self.prepare(line, weights, trial)?;
         let mut last = f64::INFINITY;
         let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
-        let unsure = old && self.watched && self.memory.rate >= UNSURE;
         for iteration in 0..criteria.iterations {
             self.find_increment(line, trial, if iteration == 0 { Asking::First } else { Asking::Again });
-            let size = self.retreat(weights, trial, criteria);
-            line.follow(trial);
-            if !size.is_finite() {
-                return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
-            }
-            let contraction = size / last;
-            if last.is_finite() {
-                self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
-            }
+            let size = self.retreat(line, weights, trial, criteria)?;
+            let contraction = self.contracted(size, last);
             if left(size, self.memory.rate) < criteria.tolerance {
                 if iteration == 0 && unsure && size > FAINT * criteria.tolerance {
                     last = size;
@@ -374,10 +366,24 @@ impl Newton {
         Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 })
     }
 
-    /// Takes the increment away, and returns its largest scaled entry; NaN if any is not finite.
-    fn retreat(&self, weights: &Weights, trial: &mut State, criteria: &Criteria) -> f64 {
+    /// Takes the increment away, and returns its largest scaled entry.
+    fn retreat(&self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<f64, Stall> {
         let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
-        trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales)
+        let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
+        line.follow(trial);
+        if !size.is_finite() {
+            return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
+        }
+        Ok(size)
+    }
+
+    /// Size of an increment over that of the last one; keeps it, where there was one.
+    fn contracted(&mut self, size: f64, last: f64) -> f64 {
+        let contraction = size / last;
+        if last.is_finite() {
+            self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
+        }
+        contraction
     }
 
     /// Full Newton with a search along each step: slower, but it gets round the kinks where the line goes slack or lands.

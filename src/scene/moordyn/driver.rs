@@ -74,14 +74,14 @@ pub fn read_either(path: &Path) -> Result<Driver, Error> {
 /// Reads the text of a driver; `file` is for messages, the table is looked for from `directory`.
 pub fn read(text: &str, file: &str, directory: &Path) -> Result<Driver, Error> {
     let mut driver = Driver::default();
-    let (mut mode, mut inputs, mut starts) = (0.0, None, None);
+    let (mut mode, mut inputs, mut starts) = (0.0, None, false);
     for (index, line) in text.lines().enumerate() {
         let row = Row { number: index + 1, text: line.trim(), words: line.split_whitespace().collect() };
         if line.trim_start().starts_with("---") {
-            starts = line.to_uppercase().contains("INITIAL POSITIONS").then_some(());
+            starts = line.to_uppercase().contains("INITIAL POSITIONS");
             continue;
         }
-        if starts.is_some() {
+        if starts {
             if row.words.first().is_some_and(|word| word.parse::<f64>().is_ok()) {
                 driver.offset_of(&row, file)?;
                 break;
@@ -176,7 +176,7 @@ impl Driver {
             own.motion = BodyMotion::File { path: name.clone() };
             motions.insert(body, (name.clone(), Arc::new(table)));
         }
-        if self.duration.is_some_and(|duration| duration > end) || self.duration.is_none() {
+        if self.duration.is_none_or(|duration| duration > end) {
             scene.run.duration = end.max(0.0);
         }
         scene.place_ends();
