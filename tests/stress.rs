@@ -133,6 +133,8 @@ struct Played {
     stepping: Duration,
     /// Time simulated [s].
     simulated: f64,
+    /// Steps that would have done if each had been as long as its error allows: of each row, with the largest error of its steps.
+    needed: f64,
 }
 
 fn path_of(loaded: &Loaded) -> Path {
@@ -320,22 +322,26 @@ fn finite(simulation: &Simulation) -> Option<Outputs> {
     (good && simulation.nodes().iter().all(|node| node.position.iter().all(|x| x.is_finite()))).then_some(outputs)
 }
 
-fn fate(trial: &Trial, simulation: &mut Simulation, statics: &mut usize, stepping: &mut Duration) -> Fate {
+fn fate(trial: &Trial, simulation: &mut Simulation, played: &mut Played) -> Fate {
     let settled = simulation.settle(trial.scene.lines[0].fairlead.into(), 0.0);
     match settled {
         _ if finite(simulation).is_none() => return Fate::Broken("not finite in statics".into()),
         Err(Error::Statics(unbalanced)) => {
-            *statics = unbalanced.iterations;
+            played.statics = unbalanced.iterations;
             let off = unbalanced.residual / unbalanced.allowed;
             return Fate::Unsettled(format!("no equilibrium, {off:.1e} times the allowed residual, {:?}", unbalanced.zone));
         }
         Err(other) => return Fate::Broken(other.to_string()),
-        Ok(report) => *statics = report.iterations,
+        Ok(report) => played.statics = report.iterations,
     }
     for row in 1..=(trial.until / trial.step).round() as usize {
         let began = Instant::now();
         let advanced = simulation.advance(row as f64 * trial.step, &trial.path);
-        *stepping += began.elapsed();
+        played.stepping += began.elapsed();
+        let last = simulation.last_step();
+        // Of the third order in the step.
+        let by_error = last.error_estimate.min(1.0).cbrt() * last.substeps as f64;
+        played.needed += by_error.max(trial.step / trial.scene.solver.max_step);
         match advanced {
             Ok(()) => {}
             Err(Error::Step(stuck)) if matches!(stuck.cause, Cause::OutOfReach { .. }) => return Fate::OutOfReach,
@@ -350,8 +356,19 @@ fn fate(trial: &Trial, simulation: &mut Simulation, statics: &mut usize, steppin
 }
 
 fn play(trial: &Trial) -> Played {
-    let (began, mut statics, mut work) = (Instant::now(), 0, Counters::default());
-    let mut stepping = Duration::ZERO;
+    let began = Instant::now();
+    let nothing = Counters::default();
+    let mut played = Played {
+        class: trial.class,
+        name: trial.name.clone(),
+        fate: Fate::Refused,
+        statics: 0,
+        work: nothing,
+        wall: Duration::ZERO,
+        stepping: Duration::ZERO,
+        simulated: trial.until,
+        needed: 0.0,
+    };
     let fate = panic::catch_unwind(AssertUnwindSafe(|| {
         if check::check(&trial.scene, "stress").is_err() {
             return Fate::Refused;
@@ -359,15 +376,15 @@ fn play(trial: &Trial) -> Played {
         match Simulation::new(&trial.scene, 0) {
             Err(error) => Fate::Broken(error.to_string()),
             Ok(mut simulation) => {
-                let fate = fate(trial, &mut simulation, &mut statics, &mut stepping);
-                work = simulation.counters();
+                let fate = fate(trial, &mut simulation, &mut played);
+                played.work = simulation.counters();
                 fate
             }
         }
     }));
-    let fate = fate.unwrap_or_else(|_| Fate::Broken("panic".into()));
-    let (wall, simulated) = (began.elapsed(), trial.until);
-    Played { class: trial.class, name: trial.name.clone(), fate, statics, work, wall, stepping, simulated }
+    played.fate = fate.unwrap_or_else(|_| Fate::Broken("panic".into()));
+    played.wall = began.elapsed();
+    played
 }
 
 fn play_all(mut trials: Vec<Trial>) -> Vec<Played> {
@@ -465,19 +482,21 @@ fn spread(played: &[Played]) -> String {
 
 /// What each scene that ran took, a row each.
 fn rows(played: &[Played]) -> String {
-    let mut text =
-        String::from("class,name,simulated,elements,statics,steps,rejected,unresolved,iterations,factorisations,seconds\n");
+    let mut text = String::from(
+        "class,name,simulated,elements,statics,steps,needed,rejected,unresolved,iterations,factorisations,seconds\n",
+    );
     for p in played.iter().filter(|p| matches!(p.fate, Fate::Ran) && p.work.newton_iterations > 0) {
         let w = p.work;
         let _ = writeln!(
             text,
-            "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{:e}",
+            "\"{}\",\"{}\",{},{},{},{},{:.1},{},{},{},{},{:e}",
             p.class,
             p.name.replace('"', ""),
             p.simulated,
             w.element_iterations / w.newton_iterations,
             p.statics,
             w.steps,
+            p.needed,
             w.rejected_steps,
             w.unresolved_steps,
             w.newton_iterations,
@@ -583,16 +602,28 @@ fn random_lines_move_or_say_why_not() {
     judge(&play_all((0..100).map(random_trial).collect()), 0.95);
 }
 
-/// Whatever settles runs in waves, too.
-#[test]
-fn random_lines_move_in_waves() {
-    judge(&play_all((0..100).map(wavy_trial).collect()), 0.97);
+/// Iterations per step of all scenes together: what is hard has most of them.
+#[track_caller]
+fn assert_iterations(played: &[Played], most: f64) {
+    let total = |of: fn(&Counters) -> usize| played.iter().map(|p| of(&p.work)).sum::<usize>() as f64;
+    let per_step = total(|work| work.newton_iterations) / total(|work| work.steps);
+    assert!(per_step < most, "{per_step:.2} iterations per step, at most {most}");
 }
 
-/// Lines with a clump or a buoy.
+/// Whatever settles runs in waves, too. Measured: 5.9 iterations per step; 7.1 with stages that end by strains alone and are searched for by chords.
+#[test]
+fn random_lines_move_in_waves() {
+    let played = play_all((0..100).map(wavy_trial).collect());
+    judge(&played, 0.97);
+    assert_iterations(&played, 6.4);
+}
+
+/// Lines with a clump or a buoy. Measured: 3.5 iterations per step, and 6.4 as above.
 #[test]
 fn random_lines_with_a_body_move() {
-    judge(&play_all((0..100).map(burdened_trial).collect()), 0.97);
+    let played = play_all((0..100).map(burdened_trial).collect());
+    judge(&played, 0.97);
+    assert_iterations(&played, 4.2);
 }
 
 #[test]

@@ -93,6 +93,8 @@ impl Esdirk {
         let (tableau, start) = (self.tableau, &from.state);
         let diagonal = tableau.gamma * h;
         match self.between[..i - 1].last() {
+            // What goes slack and taut all the time is accelerated by anything: the last acceleration says nothing of the next.
+            _ if bench.newton.is_rough() => next.a.fill(0.0),
             None => predict(from, tableau.nodes[i] * h, &mut next.a),
             Some([_, before]) => {
                 // Through the start and the stage before.

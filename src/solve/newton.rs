@@ -159,6 +159,11 @@ impl Newton {
         &self.memory
     }
 
+    /// Whether the last stage lay at a kink that whole steps do not get round.
+    pub fn is_rough(&self) -> bool {
+        self.memory.rough
+    }
+
     /// Goes on from a memory of this line. A factor that it speaks of is made again when it is needed, if it is not at hand.
     pub fn recall(&mut self, memory: &Memory) {
         let same = match (&self.memory.origin, &memory.origin) {
@@ -424,7 +429,7 @@ impl Newton {
                 return Ok(());
             }
             let mut taken = 0.0;
-            search::share(|share| {
+            search::across_kinks(|share| {
                 if share != taken {
                     self.apply(weights, taken - share, trial);
                     line.follow(trial);
