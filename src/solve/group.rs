@@ -204,6 +204,7 @@ impl Group {
         let lonely = simulations.is_empty();
         let held = !supports.holds.is_empty() || scene.environment.seabed.friction > 0.0;
         let moved_by_water = Waves::of(&scene.environment).is_some();
+        links.timeless = supports.holds.is_empty() && !moved_by_water;
         let rod = physics::build(mesh, surroundings, supports);
         let slopes: Vec<usize> = masters[together.bodies.len()..].to_vec();
         let mut network = Network::new(rod, bodies, links, arms, driven, pulls, &slopes);
