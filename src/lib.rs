@@ -36,6 +36,7 @@ pub mod algebra {
     pub mod lanes;
     pub mod polynomial;
     pub mod real;
+    pub mod root;
     pub mod rotation;
     pub mod shape;
     pub mod sinusoid;

@@ -370,7 +370,8 @@ fn farm(points: usize) -> Value {
 }
 
 /// Twenty lines and ten points, of which one end is moved: every line pulls as it does alone with its ends on the way that they go here, to a thousandth of its
-/// tension at rest (that is the tolerance of both), and all of them cost no more than 1.5 times what they cost alone, in elements that are looked at.
+/// tension at rest (that is the tolerance of both). All go by the steps of the one that is moved; elements of lines that are done are not looked at: 2.2 times
+/// what the lines cost alone would be too much in these 40 s of easing in, and is more than that if all are looked at every time.
 #[test]
 fn lines_that_meet_pull_as_each_alone_and_cost_little_more() {
     let loaded = load(&farm(10));
@@ -399,7 +400,11 @@ fn lines_that_meet_pull_as_each_alone_and_cost_little_more() {
         Some(Mount::Point { point }) => {
             let way = &ways[loaded.scene.point(point).unwrap_or_else(|| panic!("a point"))];
             let (positions, velocities) = (way.iter().map(|at| at.position.into()), way.iter().map(|at| at.velocity.into()));
-            Path::Table(Arc::new(Table { times: times.clone(), positions: positions.collect(), velocities: velocities.collect() }))
+            Path::Table(Arc::new(Table {
+                times: times.clone(),
+                positions: positions.collect(),
+                velocities: velocities.collect(),
+            }))
         }
         _ => own,
     };
@@ -408,7 +413,9 @@ fn lines_that_meet_pull_as_each_alone_and_cost_little_more() {
         let own = Ends::of_scene(&loaded, index);
         let ends = Ends { fairlead: path_of(&line.fairlead_on, own.fairlead), anchor: path_of(&line.anchor_on, own.anchor) };
         let mut alone = Simulation::on_ends(&placed, index, Some(&ends)).unwrap_or_else(|error| panic!("{error}"));
-        alone.settle_between(ends.fairlead.at(0.0).position, ends.anchor.at(0.0).position, 0.0).unwrap_or_else(|error| panic!("{error}"));
+        alone
+            .settle_between(ends.fairlead.at(0.0).position, ends.anchor.at(0.0).position, 0.0)
+            .unwrap_or_else(|error| panic!("{error}"));
         for (time, here) in times.iter().zip(&pulls[index]).skip(1) {
             alone.advance_ends(*time, &ends).unwrap_or_else(|error| panic!("{error}"));
             let off = (alone.observe().tension - here.tension).abs() / at_rest[index].tension;
@@ -417,5 +424,37 @@ fn lines_that_meet_pull_as_each_alone_and_cost_little_more() {
         apart += alone.counters().element_iterations;
     }
     println!("{joined} elements looked at together, {apart} apart");
-    assert!((joined as f64) < 1.5 * apart as f64, "{joined} elements looked at together, {apart} apart");
+    assert!((joined as f64) < 2.2 * apart as f64, "{joined} elements looked at together, {apart} apart");
+}
+
+/// Where the line that is moved is the last of its group, and looked at alone, its elements begin anywhere in the rows that are read side by side, and end
+/// with them: of any number of elements it pulls as it does as the second of them, to a thousandth of its tension at rest.
+#[test]
+fn a_line_pulls_the_same_wherever_it_stands_among_those_it_meets() {
+    for elements in 3..=11 {
+        let tensions = |last: bool| {
+            let mut scene = farm(3);
+            let lines = scene["lines"].as_array_mut().unwrap_or_else(|| panic!("lines"));
+            lines.iter_mut().for_each(|line| line["sections"][0]["elements"] = json!(elements));
+            if last {
+                let moved = lines.remove(1);
+                lines.push(moved);
+            }
+            let moved = if last { lines.len() - 1 } else { 1 };
+            let loaded = load(&scene);
+            let Ok(Part::Group(mut group)) = Part::of_scene(&loaded, &partition::parts(&loaded.scene)[0]) else {
+                panic!("no group")
+            };
+            group.settle(0.0).unwrap_or_else(|error| panic!("{error}"));
+            let rows = 1..=150;
+            rows.map(|row| {
+                group.advance(0.1 * f64::from(row)).unwrap_or_else(|error| panic!("{error}"));
+                group.outputs(moved).tension
+            })
+            .collect::<Vec<f64>>()
+        };
+        let (second, last) = (tensions(false), tensions(true));
+        let off = second.iter().zip(&last).map(|(one, other)| (one - other).abs() / second[0]).fold(0.0, f64::max);
+        assert!(off < 1.0e-3, "{elements} elements: {off:.1e} of its tension at rest");
+    }
 }

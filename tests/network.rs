@@ -2,6 +2,7 @@
 
 use moorline::scene::motion_file::Table;
 use moorline::scene::read::{self, Loaded};
+use moorline::solve::fleet;
 use moorline::solve::group::{EndOf, Group};
 use moorline::solve::motion::{self, Ends};
 use moorline::solve::partition;
@@ -245,15 +246,16 @@ fn a_free_top_keeps_energy_and_momentum_to_the_order_of_the_scheme() {
         }
         worst
     };
-    for (scheme, order) in [("adams-moulton", 2.0), ("esdirk3", 3.0), ("generalized-alpha", 2.0)] {
+    let mut schemes = [("adams-moulton", 2.0), ("esdirk3", 3.0), ("generalized-alpha", 2.0)];
+    fleet::for_each(&mut schemes, |(scheme, order)| {
         let (coarse, fine) = (drift(0.05, scheme), drift(0.025, scheme));
         let orders = [(coarse[0] / fine[0]).log2(), (coarse[1] / fine[1]).log2()];
         println!("{scheme}: {coarse:?} {fine:?} orders {orders:?}");
         assert!(
-            orders.iter().all(|found| *found > order - 0.3) && fine.iter().all(|drift| *drift < 1e-2),
+            orders.iter().all(|found| *found > *order - 0.3) && fine.iter().all(|drift| *drift < 1e-2),
             "{scheme}: {orders:?}"
         );
-    }
+    });
 }
 
 /// A load from a file on a body with a spring k and no damping: with F = F′ t up to t₁ and constant from there,
@@ -313,9 +315,7 @@ fn a_load_from_a_file_moves_a_body_as_an_oscillator() {
 /// A fairlead, a point on two chains, and a buoy under water on two more lines.
 fn moored_buoy() -> Value {
     let chain = json!({"ea": 4e8, "mass": 110.0, "diameter": 0.07, "submerged_weight": 940.0, "drag": {"normal": 1.2}, "added_mass": {"normal": 1.0}});
-    let line = |fairlead: Value, anchor: Value, length: f64| {
-        json!({"fairlead": fairlead, "anchor": anchor, "sections": [{"type": "chain", "length": length, "elements": 10}]})
-    };
+    let line = |fairlead: Value, anchor: Value, length: f64| json!({"fairlead": fairlead, "anchor": anchor, "sections": [{"type": "chain", "length": length, "elements": 10}]});
     json!({
         "environment": {"depth": 150.0}, "line_types": {"chain": chain},
         "lines": [
@@ -330,6 +330,9 @@ fn moored_buoy() -> Value {
             "inertia": [8e4, 8e4, 8e4], "volume": 90.0, "centre_of_buoyancy": [0, 0, 0.3]}],
     })
 }
+
+/// What wakes a group, in words and in deed.
+type Way<'a> = (&'a str, &'a dyn Fn(&mut Group));
 
 /// Lines that meet, and what they hang on, take no steps and no iterations while nothing moves, however long; what they would do is less than the
 /// hundredth of the tolerance that is promised; and they wake when an end is driven, a force applied to a body or changed on a point: then they do what
@@ -365,7 +368,7 @@ fn lines_that_meet_cost_nothing_at_rest_until_something_moves() {
         let (times, to) = (vec![0.0, rest, rest + 5.0], [38.0, 1.0, -1.0]);
         motion::Path::Table(Arc::new(Table { times, positions: vec![fairlead, fairlead, to], velocities: vec![[0.0; 3]; 3] }))
     };
-    let ways: [(&str, &dyn Fn(&mut Group)); 3] = [
+    let ways: [Way; 3] = [
         ("an end is driven", &|_| ()),
         ("a body is pulled at", &|group| group.apply(0, Vector3::new(2.0e4, 0.0, 0.0), Vector3::zeros())),
         ("a point is pulled at", &|group| group.pull(0, Vector3::new(0.0, 2.0e4, 0.0))),

@@ -468,9 +468,9 @@ impl<const B: usize> WithSimd for PartialSolution<'_, B> {
         // The blocks on this side of the middle, and those beyond it, each run towards the middle: a block and whether a run begins with it.
         let below = || runs.iter().flat_map(|&(first, end)| (first..end.min(middle)).map(move |k| (k, k == first, k + 1 == end)));
         let above = || {
-            runs.iter().rev().flat_map(|&(first, end)| {
-                (first.max(middle + 1)..end).rev().map(move |k| (k, k + 1 == end, k == first))
-            })
+            runs.iter()
+                .rev()
+                .flat_map(|&(first, end)| (first.max(middle + 1)..end).rev().map(move |k| (k, k + 1 == end, k == first)))
         };
         let zero = [0.0; MOST_LANES];
         let (mut low, mut high) = (zero, zero);
@@ -500,7 +500,8 @@ impl<const B: usize> WithSimd for PartialSolution<'_, B> {
         }
         (low, high) = (centre, centre);
         // Back again: what a run ends with towards the middle has no neighbour there, or the block in the middle.
-        let back_below = || runs.iter().rev().flat_map(|&(first, end)| (first..end.min(middle)).rev().map(move |k| (k, k + 1 == end)));
+        let back_below =
+            || runs.iter().rev().flat_map(|&(first, end)| (first..end.min(middle)).rev().map(move |k| (k, k + 1 == end)));
         let back_above = || runs.iter().flat_map(|&(first, end)| (first.max(middle + 1)..end).map(move |k| (k, k == first)));
         let (mut lows, mut highs) = (back_below(), back_above());
         loop {
@@ -635,8 +636,8 @@ mod tests {
         all.iter().zip(&some).for_each(|(x, y)| assert!((x - y).abs() < 1e-13, "{x} {y}"));
     }
 
-    /// Three chains that stand apart: any of them alone are solved for to the bit as among all, whichever holds the block in the middle, and the
-    /// right-hand sides of the others stay.
+    /// Three chains that stand apart: any of them alone are solved for as among all (to rounding: what meets in the middle is summed up in another
+    /// order), whichever holds the block in the middle, and the right-hand sides of the others stay.
     #[test]
     fn runs_alone_are_solved_for_as_among_all() {
         let chains = [(0, 3), (3, 8), (8, 10), (10, 13)];
@@ -662,7 +663,8 @@ mod tests {
             factor.solve_runs(&mut some, 13, &runs);
             for k in 0..78 {
                 let inside = runs.iter().any(|(first, end)| (*first..*end).contains(&(k % 13)));
-                assert_eq!(some[k], if inside { all[k] } else { right[k] }, "{runs:?}, entry {k}");
+                let expected = if inside { all[k] } else { right[k] };
+                assert!((some[k] - expected).abs() < 1e-13, "{runs:?}, entry {k}: {} {expected}", some[k]);
             }
         }
     }

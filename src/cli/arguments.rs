@@ -51,6 +51,24 @@ pub struct RunArguments {
     pub options: RunOptions,
 }
 
+impl RunArguments {
+    /// Reads and checks the scene, moved as `--motion` says.
+    pub fn load(&self) -> Result<Loaded, Error> {
+        let sets = &self.options.sets;
+        match (&self.scene, &self.options.motion) {
+            (Some(scene), Some(motion)) => read::load_moved(scene, motion, sets),
+            (Some(scene), None) => read::load(scene, sets),
+            (None, Some(motion)) => Err(Error::Value {
+                file: String::from("built-in scene"),
+                place: String::from("--motion"),
+                value: motion.display().to_string(),
+                allowed: String::from("name the MoorDyn file that it moves, `moorline run mooring.txt --motion FILE`"),
+            }),
+            (None, None) => read::built_in(sets),
+        }
+    }
+}
+
 /// How to run, whatever the scene.
 #[derive(Debug, Args)]
 pub struct RunOptions {
@@ -63,6 +81,9 @@ pub struct RunOptions {
     /// Seeds of the random sea, such as 1:20 or 3,7,9: a run of each on all cores, into DIR/seed-N, and one summary
     #[arg(long, value_name = "SEEDS", allow_hyphen_values = true)]
     pub seeds: Option<String>,
+    /// Motion of what is coupled in a MoorDyn file: the driver of OpenFAST for it, or the table that a driver names
+    #[arg(long, value_name = "FILE")]
+    pub motion: Option<PathBuf>,
     /// Write the snapshots for ParaView too: DIR/vtk/lines.pvd, and bodies.pvd where there are bodies
     #[arg(long)]
     pub vtk: bool,

@@ -5,9 +5,11 @@ use crate::cli::console::{self, on_terminal};
 use crate::cli::stop::Stop;
 use crate::error::Error;
 use crate::report::tables;
+use crate::scene::bodies::BodyMotion;
 use crate::scene::cable::{Deck, Job, MotionKind, forced_motion, from_scene, turned_back, writing};
 use crate::scene::moordyn;
 use crate::scene::motion_file::Table;
+use crate::scene::pose_file::PoseTable;
 use crate::scene::read::{self, Loaded};
 use crate::scene::types::{Motion, Scene};
 use crate::solve::motion::Path as Fairlead;
@@ -65,11 +67,32 @@ fn write_scene(scene: &Scene, output: &Path) -> Result<(), Error> {
 
 /// Writes the scene of a MoorDyn file; what a scene has no need of.
 fn of_moordyn(loaded: &Loaded, output: &Path) -> Result<Vec<String>, Error> {
-    write_scene(&loaded.scene, output)?;
-    Ok(vec![
+    let mut losses = vec![
         String::from("NumSegs: the program chooses elements itself; `elements` of a section gives their number"),
         String::from("kinds of lines, points and rods that no line needs are left out"),
-    ])
+    ];
+    let mut scene = loaded.scene.clone();
+    for (body, table) in scene.bodies.iter_mut().zip(&loaded.body_motions) {
+        let Some(table) = table else { continue };
+        let path = output.with_extension(format!("{}.csv", body.name));
+        tables::write(&path, &pose_table(table))?;
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        losses.push(format!("the motion of {} is in {name}", body.name));
+        body.motion = BodyMotion::File { path: name };
+    }
+    write_scene(&scene, output)?;
+    Ok(losses)
+}
+
+/// The text of a file of poses.
+fn pose_table(table: &PoseTable) -> String {
+    let mut text = String::from("t,x,y,z,roll,pitch,yaw\n");
+    for (row, time) in table.times.iter().enumerate() {
+        let way = |way: usize| if way < 3 { table.values[way][row] } else { table.values[way][row].to_degrees() };
+        let cells: Vec<String> = std::iter::once(*time).chain((0..6).map(way)).map(|x| format!("{:?}", x + 0.0)).collect();
+        let _ = writeln!(text, "{}", cells.join(","));
+    }
+    text
 }
 
 /// Writes the MoorDyn file of a scene and the files beside it; what such a file cannot hold.

@@ -19,7 +19,7 @@ use crate::report::tables::{self, Nodes, TimeSeries};
 use crate::report::units::{count, sim_time, wall_time};
 use crate::report::vtk;
 use crate::scene::cable::Deck;
-use crate::scene::read::{self, Loaded};
+use crate::scene::read::Loaded;
 use std::fmt::Write;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -31,8 +31,7 @@ const PICTURES: &str = "vtk";
 
 /// Runs a scene and leaves the results in the output directory, also of a run that fails or is stopped half way.
 pub fn run(arguments: &RunArguments) -> Result<(), Stop> {
-    let sets = &arguments.options.sets;
-    let loaded = arguments.scene.as_deref().map_or_else(|| read::built_in(sets), |scene| read::load(scene, sets))?;
+    let loaded = arguments.load()?;
     let quiet = arguments.options.quiet;
     if !quiet {
         loaded.warnings.iter().for_each(|warning| console::warning(warning));

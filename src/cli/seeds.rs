@@ -12,7 +12,7 @@ use crate::report::schedule::Schedule;
 use crate::report::seeds::{self, Asked, Line, Seed, Unfinished};
 use crate::report::tables;
 use crate::report::units::{ForceUnit, count, sim_time};
-use crate::scene::read::{self, Loaded};
+use crate::scene::read::Loaded;
 use crate::solve::fleet;
 use std::fmt::Write;
 use std::sync::Mutex;
@@ -27,8 +27,7 @@ type Outcome = Result<Option<Seed>, Error>;
 
 /// Runs every seed into a directory of its own, and leaves one summary beside them, also where some fail or the user stops it half way.
 pub fn run(arguments: &RunArguments, seeds: &str) -> Result<(), Stop> {
-    let sets = &arguments.options.sets;
-    let loaded = arguments.scene.as_deref().map_or_else(|| read::built_in(sets), |scene| read::load(scene, sets))?;
+    let loaded = arguments.load()?;
     let seeds = wanted(&loaded, seeds)?;
     let quiet = arguments.options.quiet;
     if !quiet {
@@ -182,7 +181,7 @@ mod tests {
 
     fn of(text: &str, sets: &[&str]) -> Result<Vec<u64>, String> {
         let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
-        let loaded = read::built_in(&sets).expect("a scene");
+        let loaded = crate::scene::read::built_in(&sets).expect("a scene");
         wanted(&loaded, text).map_err(|error| {
             assert_eq!(error.exit_code(), 2);
             error.to_string()

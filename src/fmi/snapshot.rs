@@ -20,7 +20,7 @@ use crate::solve::snapshot::Snapshot;
 use nalgebra::Vector3;
 
 const MAGIC: &[u8; 8] = b"MOORLINE";
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 const HEADER: usize = 8 + 4 + 16 + 8;
 const CHECKSUM: usize = 16;
 

@@ -13,10 +13,11 @@ pub fn places(deck: &Deck, scene: &Scene) -> Vec<Vec<f64>> {
     let mut places = vec![Vec::new(); scene.lines.len()];
     for channel in &deck.outputs {
         let Quantity::OfLine(id, spot, _) = channel.quantity else { continue };
-        let index = scene.lines.iter().position(|line| line.name == DeckLine::name_of(id));
-        if let Some((index, s)) = index.and_then(|index| Some((index, place(deck, id, spot, scene.lines[index].length())?))) {
-            places[index].push(s);
-        }
+        push(&mut places, deck, scene, id, spot);
+    }
+    // Ends of lines that are inside a line of the scene.
+    for line in deck.lines.iter().filter(|line| is_joined(deck, line)) {
+        [Side::A, Side::B].into_iter().for_each(|side| push(&mut places, deck, scene, line.id, Spot::End(side)));
     }
     for places in &mut places {
         places.sort_by(f64::total_cmp);
@@ -25,16 +26,30 @@ pub fn places(deck: &Deck, scene: &Scene) -> Vec<Vec<f64>> {
     places
 }
 
-/// Where along a line of a length [m] a node is; none: the line has no such node.
-fn place(deck: &Deck, id: u32, spot: Spot, length: f64) -> Option<f64> {
-    match spot {
-        Spot::End(Side::A) => Some(length),
-        Spot::End(Side::B) => Some(0.0),
-        Spot::Node(node) => {
-            let segments = deck.lines.iter().find(|line| line.id == id)?.segments;
-            (node as usize <= segments).then(|| length * (1.0 - f64::from(node) / segments.max(1) as f64))
-        }
+fn push(places: &mut [Vec<f64>], deck: &Deck, scene: &Scene, id: u32, spot: Spot) {
+    if let Some((of, s)) = place(deck, id, spot)
+        && let Some(index) = scene.lines.iter().position(|line| line.name == DeckLine::name_of(of))
+    {
+        places[index].push(s);
     }
+}
+
+/// Whether a rod of no length makes a line one with others.
+fn is_joined(deck: &Deck, line: &DeckLine) -> bool {
+    line.ends.iter().any(|end| matches!(end, LineEnd::Rod(rod, _) if deck.joined(*rod).is_some()))
+}
+
+/// Where a node of a line is: the number of the line of the scene, and the arc length there [m]; none: the line has no such node.
+fn place(deck: &Deck, id: u32, spot: Spot) -> Option<(u32, f64)> {
+    let (of, before) = deck.stretch(id)?;
+    let DeckLine { segments, length, .. } = *deck.lines.iter().find(|line| line.id == id)?;
+    let own = match spot {
+        Spot::End(Side::A) => length,
+        Spot::End(Side::B) => 0.0,
+        Spot::Node(node) if node as usize <= segments => length * (1.0 - f64::from(node) / segments.max(1) as f64),
+        Spot::Node(_) => return None,
+    };
+    Some((of, before + own))
 }
 
 /// The text of the file; none: the deck asks for nothing.
@@ -64,7 +79,13 @@ pub fn text(record: &Record, deck: &Deck) -> Option<String> {
 fn column(record: &Record, deck: &Deck, quantity: Quantity) -> Option<Vec<f64>> {
     let line = |id: u32| record.lines.iter().find(|line| line.name == DeckLine::name_of(id));
     let body = |id: u32| record.bodies.iter().find(|body| body.name == DeckBody::name_of(id));
+    // Inside a line of the scene an end is a node.
+    let inside = |id: u32| deck.lines.iter().any(|line| line.id == id && is_joined(deck, line));
     match quantity {
+        Quantity::Tension(id, side) if inside(id) => column(record, deck, Quantity::OfLine(id, Spot::End(side), Kind::Tension)),
+        Quantity::EndOfLine(id, side, axis) if inside(id) => {
+            column(record, deck, Quantity::OfLine(id, Spot::End(side), Kind::Position(axis)))
+        }
         Quantity::Tension(id, Side::B) => Some(line(id)?.rows.iter().map(|row| row.tension).collect()),
         Quantity::Tension(id, Side::A) => Some(line(id)?.rows.iter().map(|row| row.anchor_tension).collect()),
         Quantity::EndOfLine(id, side, axis) => {
@@ -75,8 +96,8 @@ fn column(record: &Record, deck: &Deck, quantity: Quantity) -> Option<Vec<f64>> 
             Some(line(id)?.rows.iter().map(place).collect())
         }
         Quantity::OfLine(id, spot, kind) => {
-            let line = line(id)?;
-            let s = place(deck, id, spot, line.length)?;
+            let (of, s) = place(deck, id, spot)?;
+            let line = line(of)?;
             let index = line.places.first()?.iter().position(|place| place.s == s)?;
             let value = |place: &Place| match kind {
                 Kind::Position(axis) => place.position[axis],
@@ -95,7 +116,7 @@ fn column(record: &Record, deck: &Deck, quantity: Quantity) -> Option<Vec<f64>> 
             });
             let mut sum = vec![0.0; record.times.len()];
             for (of, end) in ends {
-                for (sum, row) in sum.iter_mut().zip(&line(of)?.rows) {
+                for (sum, row) in sum.iter_mut().zip(&line(deck.stretch(of)?.0)?.rows) {
                     *sum += if end == 0 { row.anchor_force[axis] } else { row.force[axis] };
                 }
             }

@@ -10,6 +10,7 @@
 //! On the bed V = 0 and x' = 1 + H/EA. A line too long for any H > 0 hangs in vertical legs and lies on the bed in an arc.
 //! A line that floats is the same problem upside down, with the water surface as its bed.
 
+use crate::algebra::root;
 use nalgebra::{Vector2, Vector3};
 
 /// A uniform line between two points, in the vertical plane through them; heights above a flat bed.
@@ -79,14 +80,14 @@ impl Span {
         let strained = self.ea * (rise.abs() + self.distance) / self.length;
         let vertical = |h: f64| {
             let limit = 2.0 * (weight + strained);
-            bisect(-limit, limit, |v_a| self.curve(h, v_a, self.length).y - rise)
+            root::of_rising(-limit, limit, |v_a| self.curve(h, v_a, self.length).y - rise)
         };
         let excess = |h: f64| self.curve(h, vertical(h), self.length).x - self.distance;
         let mut high = 1.0e-6 * weight;
         while excess(high) < 0.0 && high < 1e6 * (weight + strained) {
             high *= 4.0;
         }
-        let horizontal = bisect(0.0, high, |h| if h > 0.0 { excess(h) } else { -1.0 }).max(1e-9 * weight);
+        let horizontal = root::of_rising(0.0, high, |h| if h > 0.0 { excess(h) } else { -1.0 }).max(1e-9 * weight);
         Catenary::Hanging { horizontal, at_anchor: vertical(horizontal) }
     }
 
@@ -94,7 +95,7 @@ impl Span {
     fn leg(&self, h: f64, height: f64) -> f64 {
         let rigid = (self.weight * height * (self.weight * height + 2.0 * h)).sqrt();
         let lift = |v: f64| v * v / (2.0 * self.weight * self.ea) + v * v / (h.hypot(v) + h) / self.weight;
-        bisect(0.0, rigid, |v| if v > 0.0 { lift(v) - height } else { -1.0 })
+        root::of_rising(0.0, rigid, |v| if v > 0.0 { lift(v) - height } else { -1.0 })
     }
 
     fn lying(&self) -> Catenary {
@@ -112,7 +113,7 @@ impl Span {
         while reach(high).0 < self.distance && reach(high).1 > 0.0 {
             high *= 4.0;
         }
-        let horizontal = bisect(smallest, high, |h| {
+        let horizontal = root::of_rising(smallest, high, |h| {
             let (reached, on_bed) = reach(h);
             if on_bed < 0.0 { 1.0 } else { reached - self.distance }
         });
@@ -174,30 +175,14 @@ impl Span {
 
 /// Half opening angle of an arc whose chord is `ratio` times its length: sin(a)/a = ratio.
 fn half_angle(ratio: f64) -> f64 {
-    bisect(1.0e-3, std::f64::consts::PI, |a| ratio - a.sin() / a)
-}
-
-/// Zero of a rising function between two bounds, to rounding.
-fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if f(middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+    root::of_rising(1.0e-3, std::f64::consts::PI, |a| ratio - a.sin() / a)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Published closed forms with 12 digits (elastic, suspended and touching); the bisection is good to about 1e-12.
+    /// Published closed forms with 12 digits (elastic, suspended and touching); the zeros are good to about 1e-12.
     #[test]
     fn horizontal_and_vertical_tension_agree_with_closed_forms() {
         let suspended =

@@ -314,7 +314,7 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
 
 /// Adds the residual of the elements between the nodes of each of `runs`, from its first to the one before its end, to `out`, with the waves as
 /// `flows` has them or as they are asked for, and calls `partly` for each that is still to be looked at, with what there may be. Of the elements
-/// behind a run it may add up to `MOST_LANES` too.
+/// before and behind a run it may add less than `MOST_LANES` too.
 #[allow(clippy::too_many_arguments)]
 pub fn residual<S: Stretch, W: Water, B: Bending, D: Dimension>(
     table: &Table,
@@ -347,7 +347,8 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension, P: FnMut(usize, bool, bool,
     #[inline(always)]
     fn with_simd<V: Simd>(mut self, cpu: V) {
         for &(first, end) in self.runs {
-            for e in (first..end - 1).step_by(V::F64_LANES) {
+            // Batches stand where they do in a run of all: behind the last of those there is nothing to be read.
+            for e in (first - first % V::F64_LANES..end - 1).step_by(V::F64_LANES) {
                 let acting = batch_forces::<Lanes<V, D>, S, W, B>(cpu, &self.source, e);
                 let length = Batch::<Lanes<V, D>> { cpu, rows: self.source.table, e }.get(Property::Length);
                 add_to_nodes(cpu, self.out, e, length, &acting.ends);

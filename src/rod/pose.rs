@@ -232,9 +232,14 @@ fn polynomial(terms: &[Vector3<f64>], tau: f64) -> [Vector3<f64>; 3] {
     [x, v, a]
 }
 
+/// Times within this share of the last row's are at it.
+const AT_THE_END: f64 = 1.0e-12;
+
 fn of_table(table: &PoseTable, time: f64) -> [[Vector3<f64>; 3]; 2] {
     let PoseTable { times, values, curvatures } = table;
-    let after = times.partition_point(|t| *t <= time);
+    // A run that ends with the table ends in motion.
+    let at_the_end = times.last().is_some_and(|last| (time - last).abs() <= AT_THE_END * last.abs().max(1.0));
+    let after = if at_the_end && times.len() > 1 { times.len() - 1 } else { times.partition_point(|t| *t <= time) };
     let mut sum = [[Vector3::zeros(); 3]; 2];
     for (axis, (values, curvatures)) in values.iter().zip(curvatures).enumerate() {
         let now = if after == 0 || after == times.len() {

@@ -4,12 +4,15 @@
 //! a scene counts from the fairlead.
 
 pub mod beside;
+pub mod coupled;
+pub mod driver;
 pub mod from_scene;
 pub mod options;
 pub mod outputs;
 pub mod reading;
 pub mod sections;
 pub mod to_scene;
+pub mod waves;
 pub mod words;
 pub mod writing;
 
@@ -18,7 +21,7 @@ use crate::scene::types::Triple;
 use nalgebra::Vector3;
 use options::Options;
 use outputs::{Channel, Quantity, Spot};
-use words::{Attachment, LineEnd};
+use words::{Attachment, LineEnd, Side};
 
 /// A MoorDyn file. Every row keeps its line in the text, from 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,6 +190,39 @@ pub struct DeckLine {
 }
 
 impl Deck {
+    /// The lines that a free rod of no length makes one line of, by index: the one whose end B is on it, and the one that goes on from there with its
+    /// end A. None where it does not join two so, on its two sides.
+    pub fn joined(&self, rod: u32) -> Option<[usize; 2]> {
+        self.rods.iter().find(|own| own.id == rod && own.is_point() && own.attachment == Attachment::Free)?;
+        let on = |(index, line): (usize, &DeckLine)| {
+            let own = line.ends.map(|end| match end {
+                LineEnd::Rod(id, side) if id == rod => Some(side),
+                _ => None,
+            });
+            [0, 1].into_iter().filter_map(move |end: usize| Some((index, end, own[end]?))).collect::<Vec<_>>()
+        };
+        let mut ends: Vec<(usize, usize, Side)> = self.lines.iter().enumerate().flat_map(on).collect();
+        ends.sort_by_key(|(_, end, _)| std::cmp::Reverse(*end));
+        match ends[..] {
+            [(lower, 1, one), (upper, 0, other)] if lower != upper && one != other => Some([lower, upper]),
+            _ => None,
+        }
+    }
+
+    /// Where a line is that rods of no length may have made one with others: the number of the line of which the scene has the name, and the arc
+    /// length of that from its fairlead to the own end B [m]. None where they go round in a ring.
+    pub fn stretch(&self, id: u32) -> Option<(u32, f64)> {
+        let mut own = self.lines.iter().position(|line| line.id == id)?;
+        let mut before = 0.0;
+        for _ in 0..=self.lines.len() {
+            let LineEnd::Rod(rod, _) = self.lines[own].ends[1] else { return Some((self.lines[own].id, before)) };
+            let Some([_, next]) = self.joined(rod) else { return Some((self.lines[own].id, before)) };
+            own = next;
+            before += self.lines[own].length;
+        }
+        None
+    }
+
     /// Why a column that is asked for will be missing; none: it will be there.
     fn cannot_write(&self, channel: &Channel) -> Option<String> {
         let why = |reason: &str| Some(format!("OUTPUTS: {}: not written: {reason}", channel.name));

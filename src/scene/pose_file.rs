@@ -39,7 +39,11 @@ pub fn read(path: &Path) -> Result<PoseTable, Error> {
 
 /// Reads the text of a motion file; `file` is for messages.
 pub fn parse(text: &str, file: &str) -> Result<PoseTable, Error> {
-    let rows = rows::read(text, file, COLUMNS, "s, m and deg", "a motion")?;
+    table(rows::read(text, file, COLUMNS, "s, m and deg", "a motion")?, file)
+}
+
+/// The motion of rows t, x, y, z, roll, pitch, yaw in s, m and deg, at least two, each with its line in the file.
+pub(super) fn table(rows: Vec<rows::Row<7>>, file: &str) -> Result<PoseTable, Error> {
     let (mut times, mut values): (Vec<f64>, [Vec<f64>; 6]) = (Vec::new(), Default::default());
     for (number, row) in rows {
         let refuse = |value: String, allowed: &str| rows::refuse(file, number, value, allowed);

@@ -8,6 +8,7 @@ use crate::error::{Error, Problem};
 use crate::scene::bodies::{BodyMotion, PointMotion};
 use crate::scene::cable::{Deck, forced_motion, reading, to_scene};
 use crate::scene::moordyn;
+use crate::scene::moordyn::driver::{self, Driver, Motions};
 use crate::scene::state::LineState;
 use crate::scene::text::{char_start, decode, decode_leniently, line_and_column, read_bytes};
 use crate::scene::types::{Motion, Scene, Scheme, Seas, Waves};
@@ -72,13 +73,36 @@ impl Loaded {
 
 /// Reads and checks a scene file, changed by `--set` entries (`place=value`).
 pub fn load(path: &Path, sets: &[String]) -> Result<Loaded, Error> {
+    let (text, file) = text_of(path)?;
+    parse(&text, &file, path.parent().unwrap_or(Path::new("")), sets)
+}
+
+/// Reads and checks a MoorDyn file whose coupled things move as the file `motion` says: the driver of it, or the table that a driver names.
+pub fn load_moved(path: &Path, motion: &Path, sets: &[String]) -> Result<Loaded, Error> {
+    let (text, file) = text_of(path)?;
+    if driver::is_driver(&text) || !moordyn::sections::is_deck(&text) {
+        return Err(Error::Value {
+            file,
+            place: String::from("--motion"),
+            value: motion.display().to_string(),
+            allowed: String::from(
+                "it moves what is coupled in a MoorDyn file, and this is none; a scene says in `motion`, `bodies[0].motion`, … how things move",
+            ),
+        });
+    }
+    let driver = driver::read_either(motion)?;
+    parse_moordyn(&text, &file, path.parent().unwrap_or(Path::new("")), sets, &driver)
+}
+
+/// The text of a scene file, and its name for messages.
+fn text_of(path: &Path) -> Result<(String, String), Error> {
     let file = path.display().to_string();
     let text = String::from_utf8(read_bytes(path, LARGEST, "a scene file")?).or_else(|error| {
         // Headings of old MoorDyn files have signs of other encodings.
         let lenient = decode_leniently(error.as_bytes().to_vec());
         if moordyn::sections::is_deck(&lenient) { Ok(lenient) } else { decode(error.into_bytes(), &file) }
     })?;
-    parse(&text, &file, path.parent().unwrap_or(Path::new("")), sets)
+    Ok((text, file))
 }
 
 /// The built-in scene (Lindahl & Sjöberg 1983 as run by Ma & Webster 1994), changed by `--set` entries.
@@ -90,8 +114,13 @@ pub fn built_in(sets: &[String]) -> Result<Loaded, Error> {
 /// relative to `directory`.
 pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Result<Loaded, Error> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if driver::is_driver(text) {
+        let driver = driver::read(text, file, directory)?;
+        let (text, path) = driver::deck_text(&driver, directory)?;
+        return parse_moordyn(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")), sets, &driver);
+    }
     if moordyn::sections::is_deck(text) {
-        return parse_moordyn(text, file, directory, sets);
+        return parse_moordyn(text, file, directory, sets, &Driver::default());
     }
     if !text.trim().is_empty() && reading::is_deck(text) {
         return parse_deck(text, file, directory, sets);
@@ -113,7 +142,7 @@ pub fn parse(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resul
         moordyn: None,
         warnings,
     };
-    read_motion(&mut loaded)?;
+    read_motion(&mut loaded, &Motions::new())?;
     Ok(loaded)
 }
 
@@ -145,14 +174,15 @@ fn parse_deck(text: &str, file: &str, directory: &Path, sets: &[String]) -> Resu
         moordyn: None,
         warnings,
     };
-    read_motion(&mut loaded)?;
+    read_motion(&mut loaded, &Motions::new())?;
     Ok(loaded)
 }
 
-/// Reads and checks a MoorDyn file, changed by `--set` entries that speak of its scene.
-fn parse_moordyn(text: &str, file: &str, directory: &Path, sets: &[String]) -> Result<Loaded, Error> {
-    let reading = moordyn::reading::read(text, file, directory)?;
-    let meaning = moordyn::to_scene::meaning(&reading, text, file, directory)?;
+/// Reads and checks a MoorDyn file with its driver, changed by `--set` entries that speak of its scene.
+fn parse_moordyn(text: &str, file: &str, directory: &Path, sets: &[String], driver: &Driver) -> Result<Loaded, Error> {
+    let reading = moordyn::reading::read(text, file, directory, driver.water.clone())?;
+    let mut meaning = moordyn::to_scene::meaning(&reading, text, file, directory)?;
+    let motions = driver.drive(&mut meaning, &reading.deck)?;
     let mut value = serde_json::to_value(&meaning.scene).unwrap_or_default();
     let applied = setting::apply(&mut value, sets, file)?;
     let scene = typed(&value, &Source { text: "", file, applied: &applied })?;
@@ -161,7 +191,7 @@ fn parse_moordyn(text: &str, file: &str, directory: &Path, sets: &[String]) -> R
     warnings.extend(check::check(&scene, file).map_err(placed)?);
     let mut loaded = Loaded { file: file.into(), directory: directory.into(), warnings, ..Loaded::of_scene(scene) };
     loaded.moordyn = Some(Arc::new(reading.deck));
-    read_motion(&mut loaded)?;
+    read_motion(&mut loaded, &motions)?;
     Ok(loaded)
 }
 
@@ -208,8 +238,9 @@ fn typed(value: &Value, source: &Source) -> Result<Scene, Error> {
     Ok(scene)
 }
 
-/// Reads the files of motions and loads that a checked scene names. What the water does comes into the scene itself.
-fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
+/// Reads the files of motions and loads that a checked scene names, but for motions that are there. What the water does comes into the scene
+/// itself.
+fn read_motion(loaded: &mut Loaded, motions: &Motions) -> Result<(), Error> {
     let directory = &loaded.directory;
     let records = loaded.scene.environment.waves.as_mut().map_or(&mut [][..], Seas::each_mut);
     let mut records_read = false;
@@ -239,7 +270,11 @@ fn read_motion(loaded: &mut Loaded) -> Result<(), Error> {
             loaded.body_motions.push(None);
             continue;
         };
-        loaded.body_motions.push(Some(Arc::new(pose_file::read(&loaded.directory.join(path))?)));
+        let table = match motions.get(&body.name) {
+            Some((own, table)) if own == path => Arc::clone(table),
+            _ => Arc::new(pose_file::read(&loaded.directory.join(path))?),
+        };
+        loaded.body_motions.push(Some(table));
     }
     for point in &loaded.scene.points {
         let PointMotion::File { path } = &point.motion else {

@@ -66,6 +66,8 @@ pub struct Failure {
 const GUARDED_STEPS: u32 = 256;
 /// Error of a step over the allowed one that is still accepted.
 const ACCEPTED: f64 = 1.5;
+/// Steps below this many of the finest are short for what they end at, not for their error: a stage of theirs is solved by one increment.
+const WATCHED: f64 = 8.0;
 /// Halvings of a step before giving up.
 const HALVINGS: i32 = 24;
 
@@ -113,6 +115,7 @@ impl Controller {
                 bench.newton.forget();
             }
             (moment.tried, first) = (h, false);
+            bench.newton.watched = controlled && h < WATCHED * demands.finest_step;
             let guarded = moment.guard > 0;
             let recorded = if let Stages::Record(kept) = &bench.stages { kept.len() } else { 0 };
             let scheme: &mut dyn Scheme = if guarded { &mut self.guard } else { self.scheme.as_mut() };

@@ -97,6 +97,8 @@ pub struct Newton {
     open: Option<Box<OpenLines>>,
     /// Work done so far.
     pub effort: Effort,
+    /// Whether steps are so short that the contraction is to be looked at now and then.
+    pub watched: bool,
 }
 
 /// Largest change of c_u (relative) for which an old factor is still tried.
@@ -107,6 +109,16 @@ const DAMPED: usize = 25;
 const SMOOTH: usize = 2;
 /// Contraction beyond which the tangent is factored anew.
 const SLOW: f64 = 0.15;
+/// An iteration that ends with its first increment does not show how it contracts. In steps so short that all end so, the factor would grow old
+/// unseen, and what a stage leaves comes back three times as large in the next prediction, with the other sign each step. So, where steps
+/// are watched, what is known of the contraction grows by this with each such stage,
+const AGEING: f64 = 1.05;
+/// from here on a second increment is made, which shows it,
+const UNSURE: f64 = 0.5;
+/// unless the first is below this part of the tolerance,
+const FAINT: f64 = 1.0e-3;
+/// and a factor that contracts no better than this is made anew: a third would be too much.
+const GROWING: f64 = 0.25;
 
 impl Newton {
     /// A solver for a line.
@@ -123,12 +135,19 @@ impl Newton {
             start: State::new(nodes),
             open: line.links().map(|links| Box::new(OpenLines::new(links))),
             effort: Effort::default(),
+            watched: false,
         }
     }
 
     /// Forgets the factor, so that what follows depends on the state alone.
     pub fn forget(&mut self) {
         self.recall(&Memory::none());
+    }
+
+    /// Lets lines of a network be looked at until all are done, for comparison.
+    #[cfg(test)]
+    pub fn look_at_all(&mut self) {
+        self.open.iter_mut().for_each(|open| open.lasting = true);
     }
 
     /// What the next stage takes over from those before.
@@ -296,34 +315,43 @@ impl Newton {
         damped
     }
 
-    /// Has a factor for a stage at hand: the one of before where it may do, or a new one, of which is not known how it contracts.
-    fn prepare(&mut self, line: &dyn System, weights: &Weights, trial: &State) -> Result<(), Stall> {
+    /// Has a factor for a stage at hand: the one of before where it may do, or a new one, of which is not known how it contracts;
+    /// returns whether the stage is to show how the old one does.
+    fn prepare(&mut self, line: &dyn System, weights: &Weights, trial: &State) -> Result<bool, Stall> {
         let fresh = |kept: &Weights| (kept.u / weights.u - 1.0).abs() < STALE && kept.a == weights.a;
-        if !self.memory.weights().is_some_and(fresh) || self.remake(line).is_err() {
+        let old = self.memory.weights().is_some_and(fresh) && self.remake(line).is_ok();
+        if !old {
             self.memory.rate = 1.0;
             self.memory.rates.fill(1.0);
             self.factor(line, &motion(trial), weights, None)?;
         }
-        Ok(())
+        Ok(old && self.watched && self.memory.rate >= UNSURE)
+    }
+
+    /// At the end of a stage: what is known of the contraction grows old where it was not seen, and a factor that contracts badly is dropped.
+    fn grow_old(&mut self, at_once: bool, unsure: bool, contraction: f64) {
+        if at_once && self.watched && self.memory.rate < 1.0 {
+            self.memory.rate = (AGEING * self.memory.rate).min(0.99);
+        } else if unsure && contraction > GROWING {
+            self.forget();
+        }
     }
 
     /// Modified Newton: whole steps with an old factor, as long as they contract.
     fn iterate(&mut self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<(), Stall> {
-        self.prepare(line, weights, trial)?;
+        let unsure = self.prepare(line, weights, trial)?;
         let mut last = f64::INFINITY;
         let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
         for iteration in 0..criteria.iterations {
             self.find_increment(line, trial, if iteration == 0 { Asking::First } else { Asking::Again });
-            let size = self.retreat(weights, trial, criteria);
-            line.follow(trial);
-            if !size.is_finite() {
-                return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
-            }
-            let contraction = size / last;
-            if last.is_finite() {
-                self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
-            }
+            let size = self.retreat(line, weights, trial, criteria)?;
+            let contraction = self.contracted(size, last);
             if left(size, self.memory.rate) < criteria.tolerance {
+                if iteration == 0 && unsure && size > FAINT * criteria.tolerance {
+                    last = size;
+                    continue;
+                }
+                self.grow_old(iteration == 0, unsure, contraction);
                 return Ok(());
             }
             if contraction > 2.0 && new_factor {
@@ -338,10 +366,24 @@ impl Newton {
         Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 })
     }
 
-    /// Takes the increment away, and returns its largest scaled entry; NaN if any is not finite.
-    fn retreat(&self, weights: &Weights, trial: &mut State, criteria: &Criteria) -> f64 {
+    /// Takes the increment away, and returns its largest scaled entry.
+    fn retreat(&self, line: &dyn System, weights: &Weights, trial: &mut State, criteria: &Criteria) -> Result<f64, Stall> {
         let scales = [weights.u.abs() / criteria.length, weights.u.abs()];
-        trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales)
+        let size = trial.retreat([weights.u, weights.v, weights.a], &self.increment, scales);
+        line.follow(trial);
+        if !size.is_finite() {
+            return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
+        }
+        Ok(size)
+    }
+
+    /// Size of an increment over that of the last one; keeps it, where there was one.
+    fn contracted(&mut self, size: f64, last: f64) -> f64 {
+        let contraction = size / last;
+        if last.is_finite() {
+            self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
+        }
+        contraction
     }
 
     /// Full Newton with a search along each step: slower, but it gets round the kinks where the line goes slack or lands.

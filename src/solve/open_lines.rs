@@ -39,6 +39,8 @@ pub struct OpenLines {
     forces: Vec<Vector3<f64>>,
     /// Nodes of lines that are looked at, first and behind the last.
     runs: Vec<(usize, usize)>,
+    /// No line is done before all are.
+    pub lasting: bool,
 }
 
 /// What is left to do.
@@ -75,6 +77,7 @@ impl OpenLines {
             last: vec![f64::INFINITY; masters],
             forces: vec![Vector3::zeros(); links.links.len()],
             runs: Vec::with_capacity(lines),
+            lasting: false,
         }
     }
 
@@ -84,6 +87,12 @@ impl OpenLines {
         self.unseen.fill(f64::INFINITY);
         self.carried.fill(f64::INFINITY);
         self.last.fill(f64::INFINITY);
+        self.run();
+    }
+
+    /// Lets all lines be looked at in the next iteration.
+    pub fn reopen(&mut self) {
+        self.open.fill(true);
         self.run();
     }
 
@@ -178,7 +187,7 @@ impl OpenLines {
             let slowest = on.iter().map(|master| of_masters[*master]).fold(0.0, f64::max);
             let own = left(self.unseen[number], *rate) < sizes.tolerance;
             let done = own && left(self.carried[number], slowest) < sizes.tolerance;
-            self.open[number] = !done;
+            self.open[number] = !done || self.lasting;
             (lines, all) = (lines && own, all && done);
         }
         self.run();
@@ -191,4 +200,3 @@ impl OpenLines {
         }
     }
 }
-

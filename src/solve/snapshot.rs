@@ -167,7 +167,8 @@ impl Snapshot {
         let parts = usize::try_from(words.next()?).ok().filter(|parts| *parts <= nodes)?;
         let numbers = |fields: usize| nodes.checked_mul(fields)?.checked_add(holding)?.checked_mul(COMPONENTS);
         let origin = if kept { numbers(3)?.checked_add(5 + 9 * bodies)? } else { 0 };
-        let expected = numbers(4)?.checked_add(WORDS + SCALARS + 9 * bodies + more + parts)?.checked_add(origin)?.checked_mul(8)?;
+        let expected =
+            numbers(4)?.checked_add(WORDS + SCALARS + 9 * bodies + more + parts)?.checked_add(origin)?.checked_mul(8)?;
         let per_node = match bytes.len().checked_sub(expected)? {
             0 => 0,
             rest if rest == 4 * 8 * nodes => 2,

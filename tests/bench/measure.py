@@ -141,14 +141,14 @@ def reference(case):
     return judged(case, run.times, run.tension)
 
 
-def put(name, command, text):
-    """Replaces a block of docs/benchmarks.md, which must be there."""
-    document = DOCUMENT.read_text(encoding="utf-8")
+def put(name, command, text, file=DOCUMENT):
+    """Replaces a block of docs/benchmarks.md or another file, which must be there."""
+    document = file.read_text(encoding="utf-8")
     pattern = re.compile(rf"<!-- begin {re.escape(name)}\b.*?-->.*?<!-- end {re.escape(name)} -->", re.DOTALL)
     block = f"<!-- begin {name} (made by `{command}`) -->\n{text.strip()}\n<!-- end {name} -->"
     if not pattern.search(document):
-        sys.exit(f"{DOCUMENT} has no block {name}")
-    DOCUMENT.write_text(pattern.sub(lambda _: block, document), encoding="utf-8")
+        sys.exit(f"{file} has no block {name}")
+    file.write_text(pattern.sub(lambda _: block, document), encoding="utf-8")
 
 
 def table(head, rows, left=1):

@@ -190,9 +190,9 @@ rk2 tScheme
 {stiffness / d!r} kBot
 0.0 cBot
 1.0 dtIC
-1000.0 TmaxIC
+200.0 TmaxIC
 20.0 CdScaleIC
-1e-5 threshIC
+1e-3 threshIC
 ---------------------- END
 """
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes as c
+import itertools
 import math
 import pathlib
 import subprocess
@@ -204,7 +205,7 @@ def motion_of(fmu: Fmu):
     if "fairlead.position.x" in fmu.reference:
         return surge
     names = [f"ship.{quantity}.{axis}" for quantity in ("position", "velocity") for axis in "xyz"]
-    return lambda time: dict(zip(names, sum(surge(time)[:2], [])))
+    return lambda time: dict(zip(names, itertools.chain(*surge(time)[:2])))
 
 
 def surge(time: float):

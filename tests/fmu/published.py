@@ -2,6 +2,7 @@
 
 Source: `tests/data/lindahl_sjoberg_tension.csv`, a converged solution of another program; rms over 60 to 120 s.
 """
+from __future__ import annotations
 
 import csv
 import ctypes as c

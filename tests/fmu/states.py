@@ -1,4 +1,5 @@
 """A state brings back everything, bit for bit: after steps, after an error, in every phase, and in another process. To take it changes nothing."""
+from __future__ import annotations
 
 import pathlib
 import random

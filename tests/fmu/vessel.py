@@ -176,7 +176,7 @@ for kind in PARTS:
         status, exact = line.directional(OUTPUTS, name)
         assert status == OK, line.log
         pairs.append((exact, [(a - b) / (2 * small) for a, b in zip(*ends)]))
-    for group in (range(0, 3), range(3, 6), [6], [7]):
+    for group in (range(3), range(3, 6), [6], [7]):
         size = max(abs(by[row]) for _, by in pairs for row in group)
         for name, (exact, by) in zip(names, pairs):
             for row in group:
@@ -192,7 +192,7 @@ for _ in range(320):
 rates, before = line.rates(OUTPUTS), read(line, OUTPUTS)
 assert line.step(motion, 0.01) == OK
 after = read(line, OUTPUTS)
-for group in (range(0, 3), range(3, 6), [6], [7]):
+for group in (range(3), range(3, 6), [6], [7]):
     size = max(abs(after[row] - before[row]) / 0.01 for row in group)
     for row in group:
         assert abs((after[row] - before[row]) / 0.01 - rates[row]) < 0.15 * size + 100.0, (OUTPUTS[row], rates[row], (after[row] - before[row]) / 0.01)
@@ -244,7 +244,7 @@ assert go_on(line) == first, "a refused pose changed something"
 # Angles of many turns, and ±pi, are no jump.
 for turns in (0, 1, -7):
 
-    def wound(t: float) -> dict:
+    def wound(t: float, turns=turns) -> dict:
         yaw = math.pi - 0.02 + 0.02 * t
         wrapped = (yaw + math.pi) % (2 * math.pi) - math.pi if turns == 0 else yaw + 2 * math.pi * turns
         return pose([0, 0, 0, 0, 0, wrapped], [0, 0, 0, 0, 0, 0.02])

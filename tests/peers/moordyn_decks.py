@@ -30,6 +30,8 @@ def by_moorpy(deck):
 
     logging.disable()
     system = moorpy.System(file=str(deck))
+    # A deck without a depth has its bed at its lowest point, as in MoorDyn.
+    system.depth = max([system.depth] + [-point.r[2] for point in system.pointList])
     system.initialize()
     for body in system.bodyList:
         if body.type == -1:

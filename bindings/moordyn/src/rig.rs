@@ -7,9 +7,8 @@ use crate::failure::Outcome;
 use crate::own::Own;
 use moorline::algebra::rotation;
 use moorline::fmi::pack::self_contained;
-use moorline::scene::bodies::{Body, Mount};
+use moorline::scene::moordyn::coupled::move_alone;
 use moorline::scene::moordyn::options::Depth;
-use moorline::scene::moordyn::to_scene::VESSEL;
 use moorline::scene::moordyn::words::{Attachment, LineEnd};
 use moorline::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, Stiffness};
 use moorline::scene::read::Loaded;
@@ -204,29 +203,6 @@ impl Rig {
             _ => None,
         })
     }
-}
-
-/// Gives each coupled point and rod a body of its own, which nothing is turned about: a rod's axes are global ones where the file has it.
-fn move_alone(scene: &mut Scene, deck: &Deck) {
-    for (line, own) in scene.lines.iter_mut().zip(&deck.lines) {
-        for (mount, end) in [&mut line.anchor_on, &mut line.fairlead_on].into_iter().zip(own.ends) {
-            let Some(Mount::Body { body, at, .. }) = mount else { continue };
-            if body != VESSEL {
-                continue;
-            }
-            let (name, origin) = match end {
-                LineEnd::Point(id) => (DeckPoint::name_of(id), *at),
-                LineEnd::Rod(id, _) => (DeckRod::name_of(id), deck.rods.iter().find(|rod| rod.id == id).map_or(*at, |rod| rod.a)),
-            };
-            *at = std::array::from_fn(|axis| at[axis] - origin[axis]);
-            body.clone_from(&name);
-            if !scene.bodies.iter().any(|body| body.name == name) {
-                scene.bodies.push(Body { position: origin, ..Body::plain(&name) });
-            }
-        }
-    }
-    scene.bodies.retain(|body| body.name != VESSEL);
-    scene.place_ends();
 }
 
 /// The ends of lines that are on something.

@@ -87,6 +87,10 @@ impl System {
             let reason = format!("{path}: {} lines; {MOST_LINES} is the limit", loaded.scene.lines.len());
             return Err(Failure::new(INVALID_INPUT, reason));
         }
+        if loaded.scene.lines.len() != deck.lines.len() {
+            let reason = "free rods of no length, which make one line of two, are not there for calling programs";
+            return Err(Failure::new(INVALID_INPUT, format!("{path}: {reason}")));
+        }
         let rig = Rig::new(&loaded, &deck)?;
         let interface = Interface::new(&rig.scene);
         let named: BTreeMap<&str, u32> =

@@ -1,6 +1,7 @@
 """Makes the wheel: maturin's build backend, with the FMU's library put into the package first, so that `moorline.pack` needs no compiler.
 
-cargo makes that library whenever it makes the Rust library that the extension is built on; here it is asked where.
+cargo makes that library whenever it makes the Rust library that the extension is built on; here it is asked where. It is asked for the extension,
+so that what it builds is what maturin asks for next, and the solver is built once.
 """
 
 import json
@@ -24,8 +25,11 @@ FOLDERS = {".so": ("linux64", "moorline.so"), ".dll": ("win64", "moorline.dll"),
 
 def place_library() -> None:
     """Builds the FMU's library and copies it into the package."""
-    command = ["cargo", "build", "--release", "--locked", "--manifest-path", str(HERE / "Cargo.toml"), "--package", "moorline"]
-    done = subprocess.run([*command, "--message-format", "json-render-diagnostics"], stdout=subprocess.PIPE, check=True, text=True)
+    command = ["cargo", "build", "--release", "--locked", "--manifest-path", str(HERE / "Cargo.toml"), "--package", "moorline-python"]
+    # The extension finds Python when Python loads it.
+    environment = os.environ | {"PYO3_BUILD_EXTENSION_MODULE": "1"}
+    command += ["--message-format", "json-render-diagnostics"]
+    done = subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True, env=environment)
     files = [
         Path(file)
         for message in map(json.loads, done.stdout.splitlines())

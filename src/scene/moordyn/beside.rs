@@ -25,14 +25,15 @@ pub struct Plane {
 }
 
 /// The rows of numbers of a file: its lines that begin with a number, each with its line in the text.
-struct Numbers {
-    file: String,
+pub(super) struct Numbers {
+    /// The file, for messages.
+    pub(super) file: String,
     text: String,
 }
 
 impl Numbers {
     /// Reads a file beside the deck; where there is none, the file of that path from where the program runs, as MoorDyn takes it.
-    fn read(directory: &Path, name: &str, what: &str) -> Result<Numbers, Error> {
+    pub(super) fn read(directory: &Path, name: &str, what: &str) -> Result<Numbers, Error> {
         let beside = directory.join(name);
         let path = if !beside.exists() && Path::new(name).exists() { Path::new(name) } else { &beside };
         let text = decode_leniently(read_bytes(path, LARGEST, what)?);
@@ -40,7 +41,7 @@ impl Numbers {
     }
 
     /// Rows of at least `least` numbers.
-    fn rows(&self, least: usize, columns: &'static str) -> Result<Vec<(Row<'_>, Vec<f64>)>, Error> {
+    pub(super) fn rows(&self, least: usize, columns: &'static str) -> Result<Vec<(Row<'_>, Vec<f64>)>, Error> {
         let mut rows = Vec::new();
         for (index, line) in self.text.lines().enumerate() {
             let line = line.split('#').next().unwrap_or_default();
@@ -63,7 +64,8 @@ impl Numbers {
         Ok(rows)
     }
 
-    fn fault(&self, reason: &str) -> Error {
+    /// The error for what is wrong with the whole.
+    pub(super) fn fault(&self, reason: &str) -> Error {
         Error::File { path: self.file.clone(), reason: reason.into() }
     }
 }

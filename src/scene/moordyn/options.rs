@@ -2,6 +2,7 @@
 
 use crate::error::{Error, MoorDynProblem, nearest};
 use crate::scene::moordyn::sections::{Row, Section, number};
+use crate::scene::moordyn::waves;
 
 /// What the options say.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +25,10 @@ pub struct Options {
     pub currents: bool,
     /// Whether waves come from a calling program.
     pub outer_waves: bool,
+    /// What files beside it say of the waves, and the line of the text.
+    pub waves: Option<(waves::Kind, usize)>,
+    /// Step with which a record of waves is sampled [s].
+    pub wave_step: f64,
     /// Whether an equilibrium is looked for first: not where TmaxIC is 0.
     pub settled: bool,
     /// Interval of output [s]; 0: not given.
@@ -53,6 +58,8 @@ impl Default for Options {
             friction: 0.0,
             currents: false,
             outer_waves: false,
+            waves: None,
+            wave_step: 0.25,
             settled: true,
             output_step: 0.0,
             warnings: Vec::new(),
@@ -85,7 +92,7 @@ const USED: [&str; 20] = [
 ];
 
 /// Options of MoorDyn's time stepping, its way to an equilibrium and its files.
-const OF_ITS_OWN: [&str; 31] = [
+const OF_ITS_OWN: [&str; 30] = [
     "dtm",
     "dt",
     "cfl",
@@ -107,7 +114,6 @@ const OF_ITS_OWN: [&str; 31] = [
     "disableoutput",
     "disableouttime",
     "outswitch",
-    "dtwave",
     "unifycurrentgrid",
     "fricdamp",
     "cv",
@@ -119,9 +125,9 @@ const OF_ITS_OWN: [&str; 31] = [
     "numsegs",
 ];
 
-/// Reads the options.
-pub fn read(section: Option<&Section>, file: &str) -> Result<Options, Error> {
-    let mut options = Options::default();
+/// Reads the options; `start` has those that the file does not say.
+pub fn read(section: Option<&Section>, file: &str, start: Options) -> Result<Options, Error> {
+    let mut options = start;
     let mut ignored: Vec<&str> = Vec::new();
     let (mut across, mut along) = (None, None);
     for row in section.map(|section| section.rows.as_slice()).unwrap_or_default() {
@@ -147,7 +153,11 @@ pub fn read(section: Option<&Section>, file: &str) -> Result<Options, Error> {
             "mu_kt" => across = Some((positive("MU_KT")?, row)),
             "mu_ka" => along = Some((positive("MU_KA")?, row)),
             "dtout" => options.output_step = positive("dtOut")?,
-            "wavekin" => waves(&mut options, plain("WaveKin")?, row, file)?,
+            "wavekin" => wave_kind(&mut options, plain("WaveKin")?, row, file)?,
+            "dtwave" => match plain("dtWave")? {
+                step if step > 0.0 => options.wave_step = step,
+                _ => return Err(row.unreadable(file, "dtWave", value, "a number greater than 0")),
+            },
             "currents" => currents(&mut options, plain("Currents")?, row, file)?,
             "waterkin" if value.is_empty() || value == "0" => {}
             "waterkin" => return Err(row.cannot(file, "WaterKin", NO_WATER_FILE)),
@@ -182,10 +192,19 @@ fn one_friction<'a>(across: Option<(f64, &'a Row<'a>)>, along: Option<(f64, &'a 
     Some((row, (value == 0.0 || (value == other && !alone)).then_some(value)))
 }
 
-/// WaveKin: 1 is waves from a calling program, which is not there.
-fn waves(options: &mut Options, kind: f64, row: &Row, file: &str) -> Result<(), Error> {
+/// WaveKin: 1 is waves from a calling program, which is not there; 2, 3 and 7 are files.
+fn wave_kind(options: &mut Options, kind: f64, row: &Row, file: &str) -> Result<(), Error> {
     match kind {
         0.0 => Ok(()),
+        2.0 | 3.0 | 7.0 => {
+            let kind = match kind {
+                2.0 => waves::Kind::EvenSpectrum,
+                3.0 => waves::Kind::Record,
+                _ => waves::Kind::Components,
+            };
+            options.waves = Some((kind, row.number));
+            Ok(())
+        }
         1.0 => {
             options.outer_waves = true;
             options.warnings.push(format!(
@@ -197,7 +216,7 @@ fn waves(options: &mut Options, kind: f64, row: &Row, file: &str) -> Result<(), 
         _ => Err(row.cannot(
             file,
             "WaveKin",
-            "files of waves beside a deck are not read; set WaveKin to 0 and give the scene `environment.waves`",
+            "0 is none, 1 a calling program's; 2, 3 and 7 are files beside this one; MoorDyn has no others either",
         )),
     }
 }

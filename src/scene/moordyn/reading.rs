@@ -3,7 +3,7 @@
 
 use crate::error::{Error, MoorDynProblem};
 use crate::scene::moordyn::beside;
-use crate::scene::moordyn::options;
+use crate::scene::moordyn::options::{self, Options};
 use crate::scene::moordyn::outputs;
 use crate::scene::moordyn::sections::{self, Kind, Row, Section, Sections, number};
 use crate::scene::moordyn::words::{self, Attachment, LineEnd};
@@ -23,8 +23,9 @@ pub struct Reading {
     pub warnings: Vec<String>,
 }
 
-/// Reads the text of a MoorDyn file; `file` is for messages, files beside it are looked for in `directory`.
-pub fn read(text: &str, file: &str, directory: &Path) -> Result<Reading, Error> {
+/// Reads the text of a MoorDyn file; `file` is for messages, files beside it are looked for in `directory`, and `start` has the options that the
+/// file does not say.
+pub fn read(text: &str, file: &str, directory: &Path, start: Options) -> Result<Reading, Error> {
     let sections = sections::cut(text, file)?;
     let reader = Reader { file, directory, sections: &sections };
     for kind in [Kind::Failure, Kind::Control, Kind::ExternalLoads, Kind::SyropeIc] {
@@ -47,7 +48,7 @@ pub fn read(text: &str, file: &str, directory: &Path) -> Result<Reading, Error> 
             problem: Box::new(MoorDynProblem::NoSection { section: "LINES with a line in it" }),
         });
     }
-    let options = options::read(reader.section(Kind::Options), file)?;
+    let options = options::read(reader.section(Kind::Options), file, start)?;
     warnings.extend(options.warnings.iter().cloned());
     let (outputs, unknown) = outputs::read(reader.section(Kind::Outputs));
     warnings.extend(unknown);

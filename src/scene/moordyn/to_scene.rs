@@ -17,10 +17,11 @@ use crate::scene::bodies::{
 use crate::scene::moordyn::beside::{self, Plane};
 use crate::scene::moordyn::options::Depth;
 use crate::scene::moordyn::reading::Reading;
+use crate::scene::moordyn::waves;
 use crate::scene::moordyn::words::{Attachment, LineEnd, Side};
 use crate::scene::moordyn::{Deck, DeckBody, DeckLine, DeckPoint, DeckRod, LineKind, Stiffness, scene_attitude};
 use crate::scene::types::{
-    Environment, Line, LineType, Motion, NormalTangential, Run, Scene, Seabed, Section, Solver, Surface, Triple,
+    Environment, Line, LineType, Motion, NormalTangential, Run, Scene, Seabed, Seas, Section, Solver, Surface, Triple,
 };
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
@@ -61,10 +62,11 @@ pub fn meaning(reading: &Reading, text: &str, file: &str, directory: &Path) -> R
     making.refuse_what_turns_about_an_end()?;
     let (line_types, kinds) = making.line_types();
     let mut scene_lines = Vec::new();
-    for (index, line) in deck.lines.iter().enumerate() {
-        making.spots.push((format!("lines[{index}]"), line.row));
-        scene_lines.push(making.line(line, &kinds[index])?);
+    for (line, kind) in deck.lines.iter().zip(&kinds) {
+        scene_lines.push(making.line(line, kind)?);
     }
+    let (scene_lines, rows) = making.join(scene_lines)?;
+    making.spots.extend(rows.into_iter().enumerate().map(|(index, row)| (format!("lines[{index}]"), row)));
     making.without_lines();
     let step = deck.options.output_step;
     let run = Run { output_step: if step > 0.0 { step } else { Run::default().output_step }, ..Run::default() };
@@ -137,9 +139,16 @@ impl Making<'_> {
             },
             current: if options.currents { beside::current(directory)? } else { Vec::new() },
             current_over_time: None,
-            waves: None,
+            waves: self.waves(directory)?,
             surface: Surface::Pierced,
         })
+    }
+
+    /// The waves of the files beside this one.
+    fn waves(&mut self, directory: &Path) -> Result<Option<Seas>, Error> {
+        let Some((kind, row)) = self.deck.options.waves else { return Ok(None) };
+        self.spots.push((String::from("environment.waves"), row));
+        Ok(Some(waves::read(kind, directory, self.deck.options.wave_step)?.into()))
     }
 
     /// A level bed lies at least as deep as the lowest point, as in MoorDyn.
@@ -254,6 +263,38 @@ impl Making<'_> {
         })
     }
 
+    /// Makes one line of lines that a free rod of no length joins, with a section for each: the bending moment goes on there as the direction does. What
+    /// is left, each with its row.
+    fn join(&mut self, lines: Vec<Line>) -> Result<(Vec<Line>, Vec<usize>), Error> {
+        let deck = self.deck;
+        let mut all: Vec<Option<Line>> = lines.into_iter().map(Some).collect();
+        for rod in &deck.rods {
+            let Some([lower, upper]) = deck.joined(rod.id) else { continue };
+            if deck.stretch(deck.lines[lower].id).is_none() {
+                return Err(self.cannot(
+                    rod.row,
+                    "a free rod of no length",
+                    "its lines go round in a ring; let one of them end at a point",
+                ));
+            }
+            // The upper one may have gone into another already.
+            let whole = deck.stretch(deck.lines[upper].id).and_then(|(id, _)| deck.lines.iter().position(|line| line.id == id));
+            let into = if all[upper].is_some() { Some(upper) } else { whole };
+            let Some(under) = all[lower].take() else { continue };
+            let name = whole.map_or_else(String::new, |whole| DeckLine::name_of(deck.lines[whole].id));
+            let Some(into) = into.and_then(|into| all[into].as_mut()) else { continue };
+            into.sections.extend(under.sections);
+            (into.anchor, into.anchor_on) = (under.anchor, under.anchor_on);
+            self.warnings.push(format!(
+                "line {}: rod {} has no length: {} goes on as a section of {name}",
+                rod.row,
+                rod.id,
+                DeckLine::name_of(deck.lines[lower].id)
+            ));
+        }
+        Ok(all.into_iter().zip(&deck.lines).filter_map(|(line, own)| Some((line?, own.row))).unzip())
+    }
+
     /// Coordinates of an end, or what it hangs on.
     fn end(&mut self, line: &DeckLine, end: usize, bends: bool) -> Result<(Triple, Option<Mount>), Error> {
         match line.ends[end] {
@@ -331,10 +372,12 @@ impl Making<'_> {
                 Ok(on_body(VESSEL, at, clamp))
             }
             Attachment::Body(id) => self.place_of_body(id, at, clamp, rod.row),
+            // Its lines become one.
+            _ if self.deck.joined(rod.id).is_some() => Ok((at, None)),
             _ if rod.is_point() => Err(self.cannot(
                 rod.row,
                 "a free rod of no length",
-                "it has no direction of its own; let the lines meet at a free point, or make one line of them with a section for each",
+                "it joins two lines, end B of one on its one side and end A of the other on its other; let other lines meet at a free point",
             )),
             _ => {
                 let name = DeckRod::name_of(rod.id);
@@ -449,7 +492,8 @@ impl Making<'_> {
             |name: String| self.bodies.iter().any(|body| body.name == name) || self.points.iter().any(|point| point.name == name);
         let bodies = self.deck.bodies.iter().map(|body| (DeckBody::name_of(body.id), body.row, body.attachment));
         let points = self.deck.points.iter().map(|point| (DeckPoint::name_of(point.id), point.row, point.attachment));
-        let rods = self.deck.rods.iter().map(|rod| (DeckRod::name_of(rod.id), rod.row, rod.attachment));
+        let rods = self.deck.rods.iter().filter(|rod| self.deck.joined(rod.id).is_none());
+        let rods = rods.map(|rod| (DeckRod::name_of(rod.id), rod.row, rod.attachment));
         let lonely: Vec<String> = bodies
             .chain(points)
             .chain(rods)

@@ -48,7 +48,7 @@ pub fn attachment(word: &str) -> Option<Attachment> {
         ("FIXED" | "FIX" | "ANCHOR", None, "") => Attachment::Fixed,
         ("VESSEL" | "VES" | "COUPLED" | "CPLD" | "FAIRLEAD", None, "") => Attachment::Coupled,
         ("VESSELPINNED" | "VESPIN" | "COUPLEDPINNED" | "CPLDPIN", None, "") => Attachment::CoupledPinned,
-        ("PINNED" | "PIN", None, "") => Attachment::Pinned,
+        ("PINNED" | "PIN", _, "") => Attachment::Pinned,
         ("FREE" | "CONNECT" | "CON" | "CONNECTION" | "POINT", None, "") => Attachment::Free,
         ("BODY", Some(id), "") => Attachment::Body(id),
         ("BODY", Some(id), "PINNED" | "PIN") => Attachment::BodyPinned(id),

@@ -7,7 +7,7 @@
 //! x the displacement of the last iteration, f forces of a line that is done on its ends; inside it nothing is out of balance by the matrix that
 //! was factored. Which lines are done says `open_lines`.
 
-use super::{Criteria, Newton, SLOW, Stall, motion};
+use super::{Criteria, FAINT, Newton, SLOW, Stall, motion};
 use crate::rod::motion::{Asking, Motion, Weights};
 use crate::rod::state::State;
 use crate::rod::system::System;
@@ -24,25 +24,27 @@ impl Newton {
         criteria: &Criteria,
     ) -> Result<(), Stall> {
         self.memory.rates.resize(open.parts(), 1.0);
-        self.prepare(line, weights, trial)?;
+        let unsure = self.prepare(line, weights, trial)?;
         open.begin();
         let mut last = f64::INFINITY;
         let mut new_factor = self.memory.weights() == Some(weights) && self.memory.rate == 1.0;
         for iteration in 0..criteria.iterations {
             self.find_increment_apart(open, line, trial, if iteration == 0 { Asking::First } else { Asking::Again });
-            let size = self.retreat(weights, trial, criteria);
-            line.follow(trial);
-            if !size.is_finite() {
-                return Err(Stall::NotFinite { node: self.size(weights.u, criteria.length).1 });
-            }
-            let contraction = size / last;
-            if last.is_finite() {
-                self.memory.rate = contraction.max(0.3 * self.memory.rate).min(1.0);
-            }
+            let size = self.retreat(line, weights, trial, criteria)?;
+            let contraction = self.contracted(size, last);
             last = size;
-            let sizes = Sizes { c_u: weights.u.abs(), length: criteria.length, emphasis: criteria.emphasis, tolerance: criteria.tolerance };
+            let sizes = Sizes {
+                c_u: weights.u.abs(),
+                length: criteria.length,
+                emphasis: criteria.emphasis,
+                tolerance: criteria.tolerance,
+            };
             match open.judge(line, &self.increment, &sizes, &mut self.memory.rates) {
-                Left::Nothing => return Ok(()),
+                Left::Nothing if iteration == 0 && unsure && size > FAINT * criteria.tolerance => open.reopen(),
+                Left::Nothing => {
+                    self.grow_old(iteration == 0, unsure, contraction);
+                    return Ok(());
+                }
                 Left::Masters => {}
                 Left::Lines if contraction > 2.0 && new_factor => break,
                 Left::Lines if contraction > SLOW => {
