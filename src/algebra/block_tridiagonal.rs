@@ -237,6 +237,11 @@ impl<const B: usize> Factor<B> {
         self.processor.dispatch(PartialElimination { factor: self, a, runs })
     }
 
+    /// The block that is eliminated last.
+    pub fn middle(&self) -> usize {
+        self.middle
+    }
+
     /// Solves for one right-hand side in place, given component-major: entry c of block i stands at `b[c * stride + i]`.
     /// Three products of 2B² operations per block.
     pub fn solve(&self, b: &mut [f64], stride: usize) {
@@ -666,6 +671,43 @@ mod tests {
                 let expected = if inside { all[k] } else { right[k] };
                 assert!((some[k] - expected).abs() < 1e-13, "{runs:?}, entry {k}: {} {expected}", some[k]);
             }
+        }
+    }
+
+    /// Four chains that stand apart, any of them with other numbers: factored alone, they solve to the last bit as in a factor of all, and so do the
+    /// others, whichever holds the block in the middle.
+    #[test]
+    fn runs_factored_anew_are_factored_as_among_all() {
+        let chains = [(0, 3), (3, 8), (8, 10), (10, 13)];
+        let entry = |i: usize, r: usize, c: usize| 0.1 * ((7 * i + 3 * r + 5 * c) % 11) as f64 - 0.5;
+        let fill = |a: &mut BlockTridiagonal<6>, (first, end): (usize, usize), by: f64| {
+            for i in first..end {
+                a.diagonal[i] = Block::from_fn(|r, c| by * entry(i, r, c) + if r == c { 6.0 } else { 0.0 });
+                if i + 1 < end {
+                    let held = |r: usize, c: usize| i == 4 && (r < 3 || c < 3);
+                    a.upper[i] = Block::from_fn(|r, c| if held(r, c) { 0.0 } else { by * entry(i + 6, r, c) });
+                    a.lower[i] = Block::from_fn(|r, c| if held(r, c) { 0.0 } else { by * entry(i + 12, r, c) });
+                }
+            }
+        };
+        for chosen in 0..16 {
+            let mut a = BlockTridiagonal::<6>::new((0..12).map(|i| i == 4).collect());
+            chains.iter().for_each(|chain| fill(&mut a, *chain, 1.0));
+            let (mut partly, mut wholly) = (Factor::new(13, [0, 1, 2, 3, 4, 5]), Factor::new(13, [0, 1, 2, 3, 4, 5]));
+            partly.factor(&a).unwrap();
+            let runs: Vec<(usize, usize)> = (0..4).filter(|k| chosen >> k & 1 == 1).map(|k| chains[k]).collect();
+            runs.iter().for_each(|run| fill(&mut a, *run, 0.7));
+            wholly.factor(&a).unwrap();
+            // Of chains that are not to be factored nothing is read.
+            for (first, end) in chains.iter().filter(|chain| !runs.contains(chain)) {
+                a.clear_between(*first, *end);
+            }
+            partly.factor_runs(&a, &runs).unwrap();
+            let right: Vec<f64> = (0..78).map(|k| ((k * k) % 13) as f64 - 5.0).collect();
+            let (mut one, mut other) = (right.clone(), right);
+            partly.solve(&mut one, 13);
+            wholly.solve(&mut other, 13);
+            assert_eq!(one, other, "{runs:?}");
         }
     }
 
