@@ -158,7 +158,8 @@ fn tensions(scheme: Scheme, forgetful: bool) -> Vec<f64> {
     let line = rig.line.as_ref();
     let wrapped = Forgetful(line);
     let used: &dyn System = if forgetful { &wrapped } else { line };
-    let criteria = Criteria { tolerance: 1.0e-7, length: line.mesh().length, emphasis: 1.0, iterations: 10 };
+    let criteria =
+        Criteria { tolerance: 1.0e-7, length: line.mesh().length, emphasis: 1.0, iterations: 10, loose: 0.0, enough: 0.0 };
     let demands = Demands { error: 1.0e-3, finest_step: 1.0e-6, max_step: 0.025, fixed_step: Some(0.025), criteria };
     let mut newton = Newton::new(used);
     let mut bench =

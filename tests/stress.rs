@@ -463,6 +463,31 @@ fn spread(played: &[Played]) -> String {
     text
 }
 
+/// What each scene that ran took, a row each.
+fn rows(played: &[Played]) -> String {
+    let mut text =
+        String::from("class,name,simulated,elements,statics,steps,rejected,unresolved,iterations,factorisations,seconds\n");
+    for p in played.iter().filter(|p| matches!(p.fate, Fate::Ran) && p.work.newton_iterations > 0) {
+        let w = p.work;
+        let _ = writeln!(
+            text,
+            "\"{}\",\"{}\",{},{},{},{},{},{},{},{},{:e}",
+            p.class,
+            p.name.replace('"', ""),
+            p.simulated,
+            w.element_iterations / w.newton_iterations,
+            p.statics,
+            w.steps,
+            w.rejected_steps,
+            w.unresolved_steps,
+            w.newton_iterations,
+            w.factorisations,
+            p.stepping.as_secs_f64()
+        );
+    }
+    text
+}
+
 /// Everything that did not run to its end, and the ten scenes that took most.
 fn details(played: &[Played]) -> String {
     let mut text = String::new();
@@ -520,6 +545,36 @@ fn chosen_random_lines_settle() {
         };
         println!("{name}: {} iterations, {:.2} s: {why}", played.statics, played.wall.as_secs_f64());
     }
+}
+
+/// All of the scenes, in the order of the report.
+fn all_trials() -> Vec<Trial> {
+    let mut trials: Vec<Trial> = (0..1000).map(random_trial).collect();
+    trials.extend((0..100).map(wavy_trial).chain((0..100).map(burdened_trial)));
+    trials.extend(leaps().into_iter().chain(hard_beds()).chain(snapping_chains()).chain(slack_lines()));
+    trials
+}
+
+/// Plays the scenes named in `STRESS_SCENES`, one after the other, and prints what each took: names as in `scenes.csv`, after their class where that is
+/// needed: "random, in waves: scene 71; 300 m, EA 1e10 N".
+#[test]
+#[ignore = "plays the scenes it is told"]
+fn chosen_scenes_move() {
+    let wanted = std::env::var("STRESS_SCENES").unwrap_or_default();
+    let wanted: Vec<(Option<&str>, &str)> = wanted
+        .split(';')
+        .map(str::trim)
+        .filter(|name| !name.is_empty())
+        .map(|name| name.split_once(": ").map_or((None, name), |(class, name)| (Some(class), name)))
+        .collect();
+    let is_wanted = |trial: &Trial| {
+        wanted.iter().any(|(class, name)| {
+            class.is_none_or(|class| class == trial.class)
+                && (trial.name == *name || class.is_none() && trial.name.contains(name))
+        })
+    };
+    let played: Vec<Played> = all_trials().iter().filter(|trial| is_wanted(trial)).map(play).collect();
+    println!("{}", rows(&played));
 }
 
 /// Whatever settles runs as long as the fairlead stays within reach.
@@ -605,14 +660,12 @@ fn an_hour() -> String {
 #[ignore = "takes minutes; leaves target/stress/report.md"]
 fn the_whole_suite() {
     let mut report = format!("{}\n\n", an_hour());
-    let mut trials: Vec<Trial> = (0..1000).map(random_trial).collect();
-    trials.extend((0..100).map(wavy_trial).chain((0..100).map(burdened_trial)));
-    trials.extend(leaps().into_iter().chain(hard_beds()).chain(snapping_chains()).chain(slack_lines()));
-    let played = play_all(trials);
+    let played = play_all(all_trials());
     report += &format!("{}\n{}\n{}", table(&played), spread(&played), details(&played));
     let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("stress");
     std::fs::create_dir_all(&directory).expect("a directory for the report");
     std::fs::write(directory.join("report.md"), &report).expect("the report can be written");
+    std::fs::write(directory.join("scenes.csv"), rows(&played)).expect("the rows can be written");
     println!("{report}");
     judge(&played, 0.96);
 }

@@ -233,7 +233,7 @@ impl Group {
                 finest_step: crossing,
                 max_step: scene.solver.max_step,
                 fixed_step: scene.solver.uncontrolled_step(),
-                criteria: Criteria { tolerance, length, emphasis: 1.0, iterations: 12 },
+                criteria: Criteria { tolerance, length, emphasis: 1.0, iterations: 12, loose: 0.0, enough: 0.0 },
             },
             moment,
             network,

@@ -30,6 +30,10 @@ pub struct Criteria {
     pub emphasis: f64,
     /// Iterations before giving up.
     pub iterations: usize,
+    /// Where whole steps fail, an increment that is not below `tolerance` counts as converged, too, if it is below `loose`
+    pub loose: f64,
+    /// and changes the energy by less than this [J].
+    pub enough: f64,
 }
 
 /// Why a stage was not solved.
@@ -389,6 +393,10 @@ impl Newton {
     }
 
     /// Full Newton with a search along each step: slower, but it gets round the kinks where the line goes slack or lands.
+    ///
+    /// What is slack has no stiffness but its inertia, and is moved by what rounding leaves, back and forth across the kink: its increments never get as small
+    /// as the strains of what is taut must be. No tension depends on them. How much one can depend on an increment x, its energy says,
+    /// c_u x·R = δu·K δu, of which no more than all can go into stretching one element (`rest`).
     fn iterate_damped(
         &mut self,
         line: &dyn System,
@@ -398,8 +406,7 @@ impl Newton {
     ) -> Result<(), Stall> {
         self.memory.rate = 1.0;
         self.memory.rates.fill(1.0);
-        line.residual(&motion(trial), &mut self.residual);
-        line.gather(&motion(trial), &mut self.residual);
+        self.weigh(line, trial, Asking::First);
         for _ in 0..DAMPED {
             self.factor(line, &motion(trial), weights, None)?;
             self.effort.iterations += 1;
@@ -412,7 +419,8 @@ impl Newton {
             if !size.is_finite() {
                 return Err(Stall::NotFinite { node });
             }
-            if size < criteria.tolerance {
+            let energy = (weights.u * self.residual.dot(&self.increment)).abs();
+            if size < criteria.tolerance || size < criteria.loose && energy < criteria.enough {
                 self.apply(weights, -1.0, trial);
                 line.follow(trial);
                 return Ok(());
@@ -423,14 +431,19 @@ impl Newton {
                     self.apply(weights, taken - share, trial);
                     line.follow(trial);
                     taken = share;
-                    line.residual(&motion(trial), &mut self.residual);
-                    line.gather(&motion(trial), &mut self.residual);
+                    self.weigh(line, trial, Asking::Again);
                 }
                 // The increment of what is prescribed is zero.
                 -self.residual.dot(&self.increment)
             });
         }
         Err(Stall::Diverging { node: self.size(weights.u, criteria.length).1 })
+    }
+
+    /// R at a state.
+    fn weigh(&mut self, line: &dyn System, trial: &State, asking: Asking) {
+        line.residual(&Motion { asking, ..motion(trial) }, &mut self.residual);
+        line.gather(&motion(trial), &mut self.residual);
     }
 
     /// J⁻¹ R at a state, with the factor at hand.

@@ -302,7 +302,8 @@ impl Rig {
         mut watch: impl FnMut(f64, &State, &dyn Line),
     ) -> usize {
         let line = self.line.as_ref();
-        let criteria = Criteria { tolerance: 1.0e-13, length: line.mesh().length, emphasis: 1.0, iterations: 30 };
+        let criteria =
+            Criteria { tolerance: 1.0e-13, length: line.mesh().length, emphasis: 1.0, iterations: 30, loose: 0.0, enough: 0.0 };
         let demands = Demands { error: 1.0, finest_step: 0.0, max_step: step, fixed_step: Some(step), criteria };
         let mut bench =
             Bench { line, newton: &mut self.newton, path, anchor: None, criteria, allowed: 0.0, stages: Stages::Solve };

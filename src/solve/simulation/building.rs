@@ -171,8 +171,11 @@ impl Simulation {
         let tolerance = (share * solver.tolerance).clamp(1e-11, 1e-4).min(holding);
         // A stiff line that carries little: what the iteration leaves is a strain, and a strain is a force.
         let scale = Scale::of(scene, &scene.lines[index], line.as_ref());
+        let loose = tolerance;
         let tolerance = tolerance * scale.strictness(line.as_ref());
-        let criteria = Criteria { tolerance, length, emphasis: 1.0, iterations: 12 };
+        let stiffest = line.mesh().sections.iter().map(|section| section.ea).fold(0.0, f64::max);
+        let enough = rest::enough(line.as_ref(), stiffest * tolerance);
+        let criteria = Criteria { tolerance, length, emphasis: 1.0, iterations: 12, loose, enough };
         let mut simulation = Simulation {
             name: scene.lines[index].name.clone(),
             surroundings,
