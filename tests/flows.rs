@@ -75,6 +75,16 @@ impl System for Forgetful<'_> {
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
         self.0.tangent(at, weights, geometric, matrix);
     }
+    fn tangent_of(
+        &self,
+        at: &Motion,
+        weights: &Weights,
+        geometric: Option<&[f64]>,
+        runs: &[(usize, usize)],
+        matrix: &mut BlockTridiagonal<6>,
+    ) {
+        self.0.tangent_of(at, weights, geometric, runs, matrix);
+    }
     fn inertia(&self, at: &Motion, x: &Field, out: &mut Field) {
         self.0.inertia(at, x, out);
     }

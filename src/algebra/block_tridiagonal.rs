@@ -181,6 +181,13 @@ impl<const B: usize> BlockTridiagonal<B> {
         self.lower.fill(Block::zeros());
     }
 
+    /// Sets the blocks `first` to before `end`, and those that couple them with each other, to zero.
+    pub fn clear_between(&mut self, first: usize, end: usize) {
+        self.diagonal[first..end].fill(Block::zeros());
+        self.upper[first..end - 1].fill(Block::zeros());
+        self.lower[first..end - 1].fill(Block::zeros());
+    }
+
     /// Takes unknown `entry` of block `index` out of the system: its row and column become those of the identity.
     pub fn fix(&mut self, index: usize, entry: usize) {
         self.diagonal[index].row_mut(entry).fill(0.0);
@@ -224,6 +231,17 @@ impl<const B: usize> Factor<B> {
         self.processor.dispatch(Elimination { factor: self, a })
     }
 
+    /// Factors the blocks of `runs` anew, each from its first to before its end, after all have been factored; none of them may be coupled with a block
+    /// outside, nor may a run that holds the block in the middle be tied behind it. On an error the factor must not be used.
+    pub fn factor_runs<const M: usize>(&mut self, a: &BlockTridiagonal<M>, runs: &[(usize, usize)]) -> Result<(), Singular> {
+        self.processor.dispatch(PartialElimination { factor: self, a, runs })
+    }
+
+    /// The block that is eliminated last.
+    pub fn middle(&self) -> usize {
+        self.middle
+    }
+
     /// Solves for one right-hand side in place, given component-major: entry c of block i stands at `b[c * stride + i]`.
     /// Three products of 2B² operations per block.
     pub fn solve(&self, b: &mut [f64], stride: usize) {
@@ -246,57 +264,128 @@ impl<const B: usize, const M: usize> WithSimd for Elimination<'_, B, M> {
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> Result<(), Singular> {
-        let Elimination { factor: Factor { inverse, back, forward, middle, entries, .. }, a } = self;
+        let Elimination { factor, a } = self;
         let last = a.diagonal.len() - 1;
-        *middle = last / 2;
+        factor.middle = last / 2;
         for (i, tied) in a.tied.iter().enumerate() {
             if *tied {
-                *middle = (*middle).max(i + 1);
+                factor.middle = factor.middle.max(i + 1);
             }
         }
-        let mut diagonal = Columns::of(&a.diagonal[0], entries);
-        for i in 0..*middle {
-            let (mut upper, mut lower) = (Columns::of(&a.upper[i], entries), Columns::of(&a.lower[i], entries));
-            let mut next = Columns::of(&a.diagonal[i + 1], entries);
-            if a.tied[i] {
-                condense(&mut diagonal, &mut upper, &mut lower, &mut next);
-            }
-            if !diagonal.invert(cpu) {
-                return Err(Singular { index: i });
-            }
-            if a.tied[i] {
-                // The first half is solved for in the next block.
-                (0..B / 2).for_each(|r| diagonal.0[r][r] = 0.0);
-            }
-            back[i] = diagonal.minus_product(cpu, &upper);
-            forward[i] = lower.minus_product(cpu, &diagonal);
-            inverse[i] = diagonal;
-            diagonal = lower.product(cpu, &back[i], &next);
-            if a.tied[i] {
-                for r in 0..B / 2 {
-                    back[i].0[r][r] = 1.0;
-                    forward[i].0[r][r] = 1.0;
-                }
-            }
+        let (middle, entries) = (factor.middle, factor.entries);
+        let mut diagonal = Columns::of(&a.diagonal[0], &entries);
+        for i in 0..middle {
+            diagonal = factor.take_up(cpu, a, i, diagonal)?;
         }
         // The block in the middle is what the first half has left of it.
         let centre = diagonal;
-        let block = |i: usize| if i == *middle { centre.clone() } else { Columns::of(&a.diagonal[i], entries) };
+        let block = |i: usize| if i == middle { centre.clone() } else { Columns::of(&a.diagonal[i], &entries) };
         let mut diagonal = block(last);
-        for i in (*middle + 1..=last).rev() {
-            let (upper, lower) = (Columns::of(&a.upper[i - 1], entries), Columns::of(&a.lower[i - 1], entries));
-            if !diagonal.invert(cpu) {
-                return Err(Singular { index: i });
+        for i in (middle + 1..=last).rev() {
+            diagonal = factor.take_down(cpu, a, i, diagonal, &block(i - 1))?;
+        }
+        factor.take_last(cpu, middle, diagonal)
+    }
+}
+
+struct PartialElimination<'a, const B: usize, const M: usize> {
+    factor: &'a mut Factor<B>,
+    a: &'a BlockTridiagonal<M>,
+    runs: &'a [(usize, usize)],
+}
+
+impl<const B: usize, const M: usize> WithSimd for PartialElimination<'_, B, M> {
+    type Output = Result<(), Singular>;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> Result<(), Singular> {
+        let PartialElimination { factor, a, runs } = self;
+        let (middle, entries) = (factor.middle, factor.entries);
+        for &(first, end) in runs {
+            let last = end - 1;
+            let centre = first.max(middle.min(last));
+            let mut diagonal = Columns::of(&a.diagonal[first], &entries);
+            for i in first..centre {
+                diagonal = factor.take_up(cpu, a, i, diagonal)?;
             }
-            back[i] = diagonal.minus_product(cpu, &lower);
-            forward[i] = upper.minus_product(cpu, &diagonal);
-            inverse[i] = diagonal;
-            diagonal = upper.product(cpu, &back[i], &block(i - 1));
+            if centre < last {
+                let left = diagonal;
+                let block = |i: usize| if i == centre { left.clone() } else { Columns::of(&a.diagonal[i], &entries) };
+                diagonal = block(last);
+                for i in (centre + 1..=last).rev() {
+                    diagonal = factor.take_down(cpu, a, i, diagonal, &block(i - 1))?;
+                }
+            }
+            factor.take_last(cpu, centre, diagonal)?;
+        }
+        Ok(())
+    }
+}
+
+impl<const B: usize> Factor<B> {
+    /// Eliminates block `i`, of which `diagonal` is left, into the next, and returns what is left of that.
+    #[inline(always)]
+    fn take_up<V: Simd, const M: usize>(
+        &mut self,
+        cpu: V,
+        a: &BlockTridiagonal<M>,
+        i: usize,
+        mut diagonal: Columns<B>,
+    ) -> Result<Columns<B>, Singular> {
+        let Factor { inverse, back, forward, entries, .. } = self;
+        let (mut upper, mut lower) = (Columns::of(&a.upper[i], entries), Columns::of(&a.lower[i], entries));
+        let mut next = Columns::of(&a.diagonal[i + 1], entries);
+        if a.tied[i] {
+            condense(&mut diagonal, &mut upper, &mut lower, &mut next);
         }
         if !diagonal.invert(cpu) {
-            return Err(Singular { index: *middle });
+            return Err(Singular { index: i });
         }
-        inverse[*middle] = diagonal;
+        if a.tied[i] {
+            // The first half is solved for in the next block.
+            (0..B / 2).for_each(|r| diagonal.0[r][r] = 0.0);
+        }
+        back[i] = diagonal.minus_product(cpu, &upper);
+        forward[i] = lower.minus_product(cpu, &diagonal);
+        inverse[i] = diagonal;
+        let left = lower.product(cpu, &back[i], &next);
+        if a.tied[i] {
+            for r in 0..B / 2 {
+                back[i].0[r][r] = 1.0;
+                forward[i].0[r][r] = 1.0;
+            }
+        }
+        Ok(left)
+    }
+
+    /// The same into the block before, whose own is `next`.
+    #[inline(always)]
+    fn take_down<V: Simd, const M: usize>(
+        &mut self,
+        cpu: V,
+        a: &BlockTridiagonal<M>,
+        i: usize,
+        mut diagonal: Columns<B>,
+        next: &Columns<B>,
+    ) -> Result<Columns<B>, Singular> {
+        let Factor { inverse, back, forward, entries, .. } = self;
+        let (upper, lower) = (Columns::of(&a.upper[i - 1], entries), Columns::of(&a.lower[i - 1], entries));
+        if !diagonal.invert(cpu) {
+            return Err(Singular { index: i });
+        }
+        back[i] = diagonal.minus_product(cpu, &lower);
+        forward[i] = upper.minus_product(cpu, &diagonal);
+        inverse[i] = diagonal;
+        Ok(upper.product(cpu, &back[i], next))
+    }
+
+    /// The block that nothing is left to be eliminated into.
+    #[inline(always)]
+    fn take_last<V: Simd>(&mut self, cpu: V, i: usize, mut diagonal: Columns<B>) -> Result<(), Singular> {
+        if !diagonal.invert(cpu) {
+            return Err(Singular { index: i });
+        }
+        self.inverse[i] = diagonal;
         Ok(())
     }
 }
@@ -582,6 +671,43 @@ mod tests {
                 let expected = if inside { all[k] } else { right[k] };
                 assert!((some[k] - expected).abs() < 1e-13, "{runs:?}, entry {k}: {} {expected}", some[k]);
             }
+        }
+    }
+
+    /// Four chains that stand apart, any of them with other numbers: factored alone, they solve to the last bit as in a factor of all, and so do the
+    /// others, whichever holds the block in the middle.
+    #[test]
+    fn runs_factored_anew_are_factored_as_among_all() {
+        let chains = [(0, 3), (3, 8), (8, 10), (10, 13)];
+        let entry = |i: usize, r: usize, c: usize| 0.1 * ((7 * i + 3 * r + 5 * c) % 11) as f64 - 0.5;
+        let fill = |a: &mut BlockTridiagonal<6>, (first, end): (usize, usize), by: f64| {
+            for i in first..end {
+                a.diagonal[i] = Block::from_fn(|r, c| by * entry(i, r, c) + if r == c { 6.0 } else { 0.0 });
+                if i + 1 < end {
+                    let held = |r: usize, c: usize| i == 4 && (r < 3 || c < 3);
+                    a.upper[i] = Block::from_fn(|r, c| if held(r, c) { 0.0 } else { by * entry(i + 6, r, c) });
+                    a.lower[i] = Block::from_fn(|r, c| if held(r, c) { 0.0 } else { by * entry(i + 12, r, c) });
+                }
+            }
+        };
+        for chosen in 0..16 {
+            let mut a = BlockTridiagonal::<6>::new((0..12).map(|i| i == 4).collect());
+            chains.iter().for_each(|chain| fill(&mut a, *chain, 1.0));
+            let (mut partly, mut wholly) = (Factor::new(13, [0, 1, 2, 3, 4, 5]), Factor::new(13, [0, 1, 2, 3, 4, 5]));
+            partly.factor(&a).unwrap();
+            let runs: Vec<(usize, usize)> = (0..4).filter(|k| chosen >> k & 1 == 1).map(|k| chains[k]).collect();
+            runs.iter().for_each(|run| fill(&mut a, *run, 0.7));
+            wholly.factor(&a).unwrap();
+            // Of chains that are not to be factored nothing is read.
+            for (first, end) in chains.iter().filter(|chain| !runs.contains(chain)) {
+                a.clear_between(*first, *end);
+            }
+            partly.factor_runs(&a, &runs).unwrap();
+            let right: Vec<f64> = (0..78).map(|k| ((k * k) % 13) as f64 - 5.0).collect();
+            let (mut one, mut other) = (right.clone(), right);
+            partly.solve(&mut one, 13);
+            wholly.solve(&mut other, 13);
+            assert_eq!(one, other, "{runs:?}");
         }
     }
 

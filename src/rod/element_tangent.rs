@@ -160,14 +160,15 @@ pub fn tangent<S: Stretch, W: Water, B: Bending, D: Dimension>(
     at: &Motion,
     weights: &Weights,
     geometric: Option<&[f64]>,
+    runs: &[(usize, usize)],
     matrix: &mut BlockTridiagonal<6>,
 ) {
     let source = Source::new(table, water, None, at);
-    table.processor.dispatch(Assembly::<S, W, B, D> { table, source, weights, geometric, matrix, laws: PhantomData });
+    table.processor.dispatch(Assembly::<S, W, B, D> { runs, source, weights, geometric, matrix, laws: PhantomData });
 }
 
 struct Assembly<'a, S, W, B, D> {
-    table: &'a Table,
+    runs: &'a [(usize, usize)],
     source: Source<'a, W>,
     weights: &'a Weights,
     geometric: Option<&'a [f64]>,
@@ -180,19 +181,20 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> WithSimd for Assembly<'_, S
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) {
-        let Assembly { table, source, weights, geometric, matrix, .. } = self;
-        let count = table.len();
-        for e in (0..count).step_by(V::F64_LANES) {
-            let mut tensions = [[0.0; MOST_LANES]; 3];
-            if let Some(geometric) = geometric {
-                for lane in 0..V::F64_LANES.min(count - e) {
-                    (0..3).for_each(|g| tensions[g][lane] = geometric[3 * (e + lane) + g]);
+        let Assembly { runs, source, weights, geometric, matrix, .. } = self;
+        for (first, count) in runs.iter().map(|(first, end)| (*first, end - 1)) {
+            for e in (first..count).step_by(V::F64_LANES) {
+                let mut tensions = [[0.0; MOST_LANES]; 3];
+                if let Some(geometric) = geometric {
+                    for lane in 0..V::F64_LANES.min(count - e) {
+                        (0..3).for_each(|g| tensions[g][lane] = geometric[3 * (e + lane) + g]);
+                    }
                 }
+                let geometric = geometric.map(|_| &tensions);
+                let sum = batch_tangent::<V, S, W, B, D>(cpu, &source, e, weights, geometric);
+                let length = Batch::<Lanes<V, D>> { cpu, rows: source.table, e }.get(Property::Length);
+                cpu.vectorize(Scatter { sum: &sum, matrix, first: e, length, count });
             }
-            let geometric = geometric.map(|_| &tensions);
-            let sum = batch_tangent::<V, S, W, B, D>(cpu, &source, e, weights, geometric);
-            let length = Batch::<Lanes<V, D>> { cpu, rows: source.table, e }.get(Property::Length);
-            cpu.vectorize(Scatter { sum: &sum, matrix, first: e, length, count });
         }
     }
 }

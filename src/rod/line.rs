@@ -224,8 +224,19 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
 
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
         matrix.clear();
-        element_tangent::tangent::<S, W, B, D>(&self.table, &self.water, at, weights, geometric, matrix);
-        for e in 0..self.table.len() {
+        self.tangent_of(at, weights, geometric, &[(0, self.mesh.nodes())], matrix);
+    }
+
+    fn tangent_of(
+        &self,
+        at: &Motion,
+        weights: &Weights,
+        geometric: Option<&[f64]>,
+        runs: &[(usize, usize)],
+        matrix: &mut BlockTridiagonal<6>,
+    ) {
+        element_tangent::tangent::<S, W, B, D>(&self.table, &self.water, at, weights, geometric, runs, matrix);
+        for e in runs.iter().flat_map(|(first, end)| *first..end - 1) {
             if let Some(ground) = &self.ground {
                 ground.tangent(&self.table, at, e, weights, matrix);
             }

@@ -29,6 +29,16 @@ pub trait System: Send + Sync {
     fn residual_of(&self, at: &Motion, runs: &[(usize, usize)], out: &mut Field);
     /// c_u ∂R/∂u + c_v ∂R/∂v + c_a ∂R/∂a. `geometric`, where given, is the tension of the geometric part at each Gauss point [N].
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>);
+    /// Adds the same of some of its lines alone, those between the nodes of each of `runs`, and of bodies and points; what is added at the nodes of
+    /// other lines says nothing.
+    fn tangent_of(
+        &self,
+        at: &Motion,
+        weights: &Weights,
+        geometric: Option<&[f64]>,
+        runs: &[(usize, usize)],
+        matrix: &mut BlockTridiagonal<6>,
+    );
     /// M x: the inertia (and of the water moved with it) for accelerations x, everything else at rest [N, N·m].
     fn inertia(&self, at: &Motion, x: &Field, out: &mut Field);
     /// Nodes of the field of places to which lines hold on by friction; 0 without friction.
@@ -88,6 +98,8 @@ pub struct Links {
     pub ranges: Vec<(usize, usize)>,
     /// Elements of each line.
     pub elements: Vec<usize>,
+    /// The tangent of a line depends on where it is and how it moves alone, not on the time: no waves, nothing that moves it between its ends.
+    pub timeless: bool,
 }
 
 impl Links {

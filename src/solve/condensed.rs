@@ -92,15 +92,18 @@ impl Condensed {
         fine
     }
 
-    /// Factors the matrix of a motion, of which prescribed unknowns have been taken out; `weight`: that of ∂R/∂u in it.
+    /// Factors the matrix of a motion, of which prescribed unknowns have been taken out; `weight`: that of ∂R/∂u in it. Of `lines`, from their first
+    /// nodes to before their ends, it says what they are now, and of bodies and points; all other lines stay as they were factored before.
+    /// None: all anew.
     pub fn factor(
         &mut self,
         system: &dyn System,
         at: &Motion,
         weight: f64,
         matrix: &mut BlockTridiagonal<COMPONENTS>,
+        lines: Option<&[(usize, usize)]>,
     ) -> Result<(), Singular> {
-        self.condense(system, at, weight, matrix)?;
+        self.condense(system, at, weight, matrix, lines)?;
         let fine = self.stiffen(&DVector::zeros(self.condensed.nrows()));
         if fine { Ok(()) } else { Err(Singular { index: self.links.masters.first().copied().unwrap_or(0) }) }
     }
@@ -112,15 +115,23 @@ impl Condensed {
         at: &Motion,
         weight: f64,
         matrix: &mut BlockTridiagonal<COMPONENTS>,
+        lines: Option<&[(usize, usize)]>,
     ) -> Result<(), Singular> {
+        let ranges = &self.links.ranges;
+        let renewed = lines.unwrap_or(ranges);
+        let anew = |line: usize| lines.is_none() || renewed.contains(&ranges[line]);
         system.levers(at, &mut self.levers);
         self.condensed.fill(0.0);
         for (number, &node) in self.links.masters.iter().enumerate() {
             self.condensed.fixed_view_mut::<6, 6>(6 * number, 6 * number).copy_from(&matrix.diagonal[node]);
             (0..COMPONENTS).for_each(|component| matrix.fix(node, component));
         }
-        self.columns.iter_mut().for_each(|column| column.fill(0.0));
-        for (link, coupling) in self.links.links.iter().zip(&mut self.couplings) {
+        for column in &mut self.columns {
+            for &(first, end) in renewed {
+                (0..COMPONENTS).for_each(|c| column.component_mut(c)[first..end].fill(0.0));
+            }
+        }
+        for (link, coupling) in self.links.links.iter().zip(&mut self.couplings).filter(|(link, _)| anew(link.line)) {
             let node = link.node;
             let (first, end) = self.links.ranges[link.line];
             let own: Block<6> = matrix.diagonal[node];
@@ -145,7 +156,7 @@ impl Condensed {
                 add(&mut self.columns, node + 1, matrix.lower[node].fixed_columns::<3>(0).into(), 0);
             }
         }
-        for (number, link) in self.links.clamped.iter().enumerate() {
+        for (number, link) in self.links.clamped.iter().enumerate().filter(|(_, link)| anew(link.line)) {
             let crossed = system.crossed(at, number) * weight;
             let coupling = &mut self.couplings[self.links.links.len() + number];
             coupling.own.fill(0.0);
@@ -169,10 +180,17 @@ impl Condensed {
                 column.set_position(link.node, &Vector3::zeros());
             }
         }
-        self.factor.factor(matrix)?;
+        match lines {
+            None => self.factor.factor(matrix)?,
+            Some(lines) => self.factor.factor_runs(matrix, lines)?,
+        }
+        // The line that holds the block in the middle is summed up in an order that depends on what is solved for beside it: alone, it comes out the same.
+        let (central, others): (Vec<_>, Vec<_>) =
+            renewed.iter().partition(|(first, end)| (*first..*end).contains(&self.factor.middle()));
         for column in &mut self.columns {
             let stride = column.stride();
-            self.factor.solve(column.data_mut(), stride);
+            self.factor.solve_runs(column.data_mut(), stride, &others);
+            self.factor.solve_runs(column.data_mut(), stride, &central);
         }
         let ends = self.links.links.len();
         for (one, link) in self.links.hanging() {

@@ -204,6 +204,7 @@ impl Group {
         let lonely = simulations.is_empty();
         let held = !supports.holds.is_empty() || scene.environment.seabed.friction > 0.0;
         let moved_by_water = Waves::of(&scene.environment).is_some();
+        links.timeless = !held && supports.clamps.is_empty() && !moved_by_water;
         let rod = physics::build(mesh, surroundings, supports);
         let slopes: Vec<usize> = masters[together.bodies.len()..].to_vec();
         let mut network = Network::new(rod, bodies, links, arms, driven, pulls, &slopes);
@@ -757,17 +758,23 @@ mod tests {
         read::parse(&text, "test", std::path::Path::new("."), &[]).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// What Newton's method would still change at the end of steps, by a tangent made there, of every line over its tolerance and of every point over its own;
-    /// and the effort.
-    fn left(look_at_all: bool) -> (Vec<f64>, Vec<f64>, crate::solve::newton::Effort) {
+    /// The same at rest.
+    fn row_of_lines() -> Group {
         let loaded = row_of_points();
         let together = &partition::parts(&loaded.scene)[0];
         let ends: Vec<Ends> = together.lines.iter().map(|index| Ends::of_scene(&loaded, *index)).collect();
         let mut group = Group::new(&loaded, together, &ends).unwrap();
+        group.settle(0.0).unwrap();
+        group
+    }
+
+    /// What Newton's method would still change at the end of steps, by a tangent made there, of every line over its tolerance and of every point over its own;
+    /// and the effort.
+    fn left(look_at_all: bool) -> (Vec<f64>, Vec<f64>, crate::solve::newton::Effort) {
+        let mut group = row_of_lines();
         if look_at_all {
             group.newton.look_at_all();
         }
-        group.settle(0.0).unwrap();
         let (mut newton, mut change) = (Newton::new(&group.network), Field::new(group.network.nodes()));
         let (mut of_lines, mut of_points) = (vec![0.0_f64; 10], vec![0.0_f64; 5]);
         for row in 1..=300 {
@@ -788,15 +795,46 @@ mod tests {
         (of_lines, of_points, group.newton.effort)
     }
 
-    /// Lines that are done early leave no more than lines that are looked at until all are done, and one in ten elements is spared: every line, and every
-    /// point, is as far from the solution of its stage as it is then, within a factor of two, or within its tolerance.
+    /// A state that was taken while lines had been factored at different times brings back the same bits, wherever the run has been since: what is
+    /// made again is the same factor.
+    #[test]
+    fn a_state_between_partial_factors_brings_back_the_same_bits() {
+        let (mut group, step) = (row_of_lines(), 0.1);
+        let (mut kept, mut mixed) = (Snapshot::new(group.network.nodes()), 0);
+        for row in 1..=300 {
+            let at = f64::from(row) * step;
+            let partial = group.newton.effort.partial;
+            group.advance(at).unwrap();
+            if group.newton.effort.partial > partial {
+                mixed += 1;
+                group.save(&mut kept);
+                let mut ends = Vec::new();
+                for elsewhere in [false, true] {
+                    if elsewhere {
+                        group.newton.forget();
+                    }
+                    group.restore(&kept);
+                    (1..=3).for_each(|k| group.advance(at + step * f64::from(k)).unwrap());
+                    ends.push((group.moment.clone(), group.newton.memory().rates.clone()));
+                }
+                assert!(ends[0] == ends[1], "row {row}");
+                group.restore(&kept);
+            }
+        }
+        assert!(mixed > 10, "{mixed} {:?}", group.newton.effort);
+    }
+
+    /// Lines that are done early leave little more than lines that are looked at until all are done, and one in ten elements is spared: every line, and every
+    /// point, is as far from the solution of its stage as it is then, within a factor of two, or within five times its tolerance. Some of them are judged
+    /// by factors that are older than those of others: where these were trusted to contract as they once did, a line would leave 126 times its tolerance.
     #[test]
     fn lines_that_are_done_early_leave_no_more_than_others() {
         let ((lines, points, effort), (all_lines, all_points, all)) = (left(false), left(true));
         println!("{lines:.2?} {points:.2?} {effort:?}\n{all_lines:.2?} {all_points:.2?} {all:?}");
         for (early, late) in lines.iter().zip(&all_lines).chain(points.iter().zip(&all_points)) {
-            assert!(*early < (2.0 * late).max(1.0), "left: {lines:.2?} {points:.2?}, else {all_lines:.2?} {all_points:.2?}");
+            assert!(*early < (2.0 * late).max(5.0), "left: {lines:.2?} {points:.2?}, else {all_lines:.2?} {all_points:.2?}");
         }
         assert!(all.spared == 0 && 10 * effort.spared > effort.iterations * 100 / 2, "{effort:?} {all:?}");
+        assert!(2 * effort.partial > effort.factorisations && all.partial == 0, "{effort:?} {all:?}");
     }
 }

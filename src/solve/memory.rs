@@ -1,8 +1,9 @@
 //! What the stage solver takes over from one step to the next, small enough to be part of a state: how it did of late, and from what the
-//! factor of its tangent was made. The factor itself is not kept: from the same it is made again to the last bit.
+//! factor of its tangent was made. The factor itself is not kept: from the same it is made again to the last bit. Of a network, lines may be
+//! factored at different times: then it was made from one motion in which each line is where it was at its own.
 
-use crate::rod::motion::{Motion, Weights};
-use crate::rod::state::State;
+use crate::rod::motion::{Asking, Motion, Weights};
+use crate::rod::state::{COMPONENTS, State};
 use std::sync::Arc;
 
 /// From what a factor was made.
@@ -85,6 +86,25 @@ impl Shelf {
         state.holds.copy_from(at.holds);
         state.frames.clear();
         state.frames.extend_from_slice(at.frames);
+        origin
+    }
+}
+
+impl Shelf {
+    /// An origin of which the nodes of each of `runs`, from its first to before its end, are those of a motion, and so are the rotations.
+    pub fn renewed(&mut self, from: &Origin, at: &Motion, runs: impl Iterator<Item = (usize, usize)>) -> Arc<Origin> {
+        let State { clock, u, v, a, holds, frames } = &from.state;
+        let before = Motion { clock: *clock, u, v, a, holds, frames, asking: Asking::Alone };
+        let mut origin = self.origin(&before, &from.weights);
+        let State { clock, u, v, a, frames, .. } = &mut Arc::make_mut(&mut origin).state;
+        *clock = at.clock;
+        frames.clear();
+        frames.extend_from_slice(at.frames);
+        for (first, end) in runs {
+            for (to, from) in [(&mut *u, at.u), (&mut *v, at.v), (&mut *a, at.a)] {
+                (0..COMPONENTS).for_each(|c| to.component_mut(c)[first..end].copy_from_slice(&from.component(c)[first..end]));
+            }
+        }
         origin
     }
 }

@@ -175,7 +175,19 @@ impl System for Network {
     }
 
     fn tangent(&self, at: &Motion, weights: &Weights, geometric: Option<&[f64]>, matrix: &mut BlockTridiagonal<6>) {
-        self.rod.tangent(at, weights, geometric, matrix);
+        matrix.clear();
+        self.tangent_of(at, weights, geometric, &[(0, self.rod.nodes())], matrix);
+    }
+
+    fn tangent_of(
+        &self,
+        at: &Motion,
+        weights: &Weights,
+        geometric: Option<&[f64]>,
+        runs: &[(usize, usize)],
+        matrix: &mut BlockTridiagonal<6>,
+    ) {
+        self.rod.tangent_of(at, weights, geometric, runs, matrix);
         for body in &self.bodies {
             matrix.diagonal[body.node] = body.tangent(at, weights);
         }

@@ -82,6 +82,8 @@ pub struct Effort {
     pub iterations: usize,
     /// Factorisations.
     pub factorisations: usize,
+    /// Those of them that were of some lines of a network alone.
+    pub partial: usize,
     /// Elements of lines that were done in an iteration that others still needed, over all iterations.
     pub spared: usize,
 }
@@ -181,7 +183,7 @@ impl Newton {
             line.tangent(&motion(&origin.state), &origin.weights, None, &mut self.matrix);
             self.effort.factorisations += 1;
             self.unknowns
-                .factor(line, &motion(&origin.state), origin.weights.u, &mut self.matrix)
+                .factor(line, &motion(&origin.state), origin.weights.u, &mut self.matrix, None)
                 .map_err(|Singular { index }| Stall::Singular { node: index })?;
             self.at_hand = true;
         }
@@ -215,7 +217,7 @@ impl Newton {
         line.tangent(at, weights, geometric, &mut self.matrix);
         self.effort.factorisations += 1;
         self.unknowns
-            .factor(line, at, weights.u, &mut self.matrix)
+            .factor(line, at, weights.u, &mut self.matrix, None)
             .map_err(|Singular { index }| Stall::Singular { node: index })?;
         if geometric.is_none() {
             self.memory.origin = Some(self.shelf.origin(at, weights));

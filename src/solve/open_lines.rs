@@ -35,6 +35,8 @@ pub struct OpenLines {
     carried: Vec<f64>,
     /// Of each master, its last increment, scaled.
     last: Vec<f64>,
+    /// Whether a stage showed how each line contracts, and each master.
+    seen: Vec<bool>,
     /// Forces on hanging ends [N].
     forces: Vec<Vector3<f64>>,
     /// Nodes of lines that are looked at, first and behind the last.
@@ -75,6 +77,7 @@ impl OpenLines {
             unseen: vec![f64::INFINITY; lines],
             carried: vec![f64::INFINITY; lines],
             last: vec![f64::INFINITY; masters],
+            seen: vec![false; lines + masters],
             forces: vec![Vector3::zeros(); links.links.len()],
             runs: Vec::with_capacity(lines),
             lasting: false,
@@ -84,6 +87,7 @@ impl OpenLines {
     /// Before a stage: nothing is known.
     pub fn begin(&mut self) {
         self.open.fill(true);
+        self.seen.fill(false);
         self.unseen.fill(f64::INFINITY);
         self.carried.fill(f64::INFINITY);
         self.last.fill(f64::INFINITY);
@@ -118,6 +122,21 @@ impl OpenLines {
         }
     }
 
+    /// Number of lines.
+    pub fn count(&self) -> usize {
+        self.open.len()
+    }
+
+    /// Nodes of bodies and points.
+    pub fn masters(&self) -> &[usize] {
+        &self.links.masters
+    }
+
+    /// Whether lines may have been factored at different times.
+    pub fn may_differ(&self) -> bool {
+        self.links.timeless
+    }
+
     /// Number of lines, and of bodies and points.
     pub fn parts(&self) -> usize {
         self.open.len() + self.last.len()
@@ -126,6 +145,19 @@ impl OpenLines {
     /// Nodes of lines that are looked at, first and behind the last, in order.
     pub fn runs(&self) -> &[(usize, usize)] {
         &self.runs
+    }
+
+    /// The lines that are looked at, each with its first node and the one behind its last.
+    pub fn lines(&self) -> Vec<(usize, usize)> {
+        self.links.ranges.iter().zip(&self.open).filter(|(_, open)| **open).map(|(range, _)| *range).collect()
+    }
+
+    /// At the end of a stage: lets what is known of the contraction of lines and masters grow by a factor where the stage did not show it, so that a line
+    /// whose factor grows old unseen is looked at twice.
+    pub fn grow_old(&self, by: f64, rates: &mut [f64]) {
+        for (rate, _) in rates.iter_mut().zip(&self.seen).filter(|(rate, seen)| !**seen && **rate < 1.0) {
+            *rate = (by * *rate).min(0.99);
+        }
     }
 
     /// Forces on hanging ends, to be brought up to date after an increment [N].
@@ -169,6 +201,7 @@ impl OpenLines {
             let now = loose.max(as_node);
             if self.lines_of[number].iter().all(|line| self.open[*line]) {
                 contract(rate, now, *last);
+                self.seen[self.open.len() + number] |= last.is_finite();
             }
             *last = now;
             masters &= left(now, *rate) < sizes.tolerance;
@@ -179,6 +212,7 @@ impl OpenLines {
             let now = increment.largest_entry(first, end, scales);
             if self.open[number] {
                 contract(rate, now, self.unseen[number]);
+                self.seen[number] |= self.unseen[number].is_finite();
                 (self.unseen[number], self.carried[number]) = (0.0, 0.0);
             }
             self.unseen[number] += now;

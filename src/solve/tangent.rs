@@ -45,7 +45,7 @@ impl LinearStage {
         };
         let mut whole = matrix(stage.weights.u, stage.weights.v, stage.weights.a);
         let mut unknowns = Unknowns::new(line);
-        let factored = unknowns.factor(line, &motion(&stage.state), stage.weights.u, &mut whole);
+        let factored = unknowns.factor(line, &motion(&stage.state), stage.weights.u, &mut whole, None);
         factored.map_err(|singular| Stall::Singular { node: singular.index })?;
         Ok(LinearStage {
             weights: stage.weights,

@@ -33,13 +33,15 @@ impl Unknowns {
         }
     }
 
-    /// Factors the matrix of a motion; prescribed unknowns are taken out of it. `weight`: that of ∂R/∂u in it.
+    /// Factors the matrix of a motion; prescribed unknowns are taken out of it. `weight`: that of ∂R/∂u in it. `lines`: those of a network that alone
+    /// are factored anew, from their first nodes to before their ends; none: all.
     pub fn factor(
         &mut self,
         line: &dyn System,
         at: &Motion,
         weight: f64,
         matrix: &mut BlockTridiagonal<COMPONENTS>,
+        lines: Option<&[(usize, usize)]>,
     ) -> Result<(), Singular> {
         for &(node, component) in line.fixed() {
             matrix.fix(node, component);
@@ -47,7 +49,7 @@ impl Unknowns {
         match self {
             Unknowns::Spatial(factor) => factor.factor(matrix),
             Unknowns::Planar(factor) => factor.factor(matrix),
-            Unknowns::Network(factor) => factor.factor(line, at, weight, matrix),
+            Unknowns::Network(factor) => factor.factor(line, at, weight, matrix, lines),
         }
     }
 

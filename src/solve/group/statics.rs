@@ -155,7 +155,7 @@ impl Group {
         let mut condensed = Condensed::new(self.network.nodes(), &self.network.links);
         let state = &self.moment.state;
         self.stiffness_at(state, &mut matrix);
-        condensed.condense(&self.network, &motion(state), 1.0, &mut matrix).ok()?;
+        condensed.condense(&self.network, &motion(state), 1.0, &mut matrix, None).ok()?;
         Some(condensed.stiffness().clone())
     }
 
@@ -295,7 +295,7 @@ impl Group {
     fn assemble(&self, here: &Trial, matrix: &mut BlockTridiagonal<6>, condensed: &mut Condensed) -> Result<(), Error> {
         let at = motion(&here.state);
         self.stiffness_at(&here.state, matrix);
-        condensed.condense(&self.network, &at, 1.0, matrix).map_err(|_| {
+        condensed.condense(&self.network, &at, 1.0, matrix, None).map_err(|_| {
             let trouble = Trouble::Unbalanced { iterations: 0, residual: here.force, allowed: here.aimed };
             Error::Network(Box::new(Adrift { what: self.names[here.worst].clone(), time: here.state.clock.now, trouble }))
         })
