@@ -152,6 +152,31 @@ fn seas_of_all_kinds_are_those_summed_one_by_one() {
     }
 }
 
+/// What sums by cells leave out follows the tolerance. As a standard deviation over a sea it is at most five times what is allowed of each series (one in
+/// space, one in time, and that of the elevation add up, and the corner of a cell is worse than its middle), and less than half of what ten times the tolerance gives.
+#[test]
+fn sums_by_cells_are_as_good_as_the_tolerance_asks() {
+    let waves = jonswap(4.0, 10.0, 3, 200);
+    let numbered: Vec<(f64, Wave)> = waves.iter().map(|wave| (wave_number(wave.omega, G, 120.0), *wave)).collect();
+    let deviation = waves.iter().map(|wave| 0.5 * (wave.amplitude * wave.omega).powi(2)).sum::<f64>().sqrt();
+    let mut last = f64::INFINITY;
+    for (tolerance, allowed) in [(1e-2, 1e-4), (1e-3, 3e-5), (1e-4, 3e-6)] {
+        let sea = Waves::new(&waves, G, 120.0, 0.0).good_to(tolerance);
+        assert!(sea.by_cells());
+        let (mut random, mut square, count) = (Random(5), 0.0, 2000);
+        for _ in 0..count {
+            let at = Triple { x: 1000.0 * random.next(), y: 0.0, z: -20.0 * random.next().powi(2) };
+            let time = 1000.0 * random.next();
+            let exact = textbook(&numbered, 120.0, time, &at).1;
+            let v = sea.flow((), &late(time), &at).expect("in motion").velocity;
+            square += (v.x - exact[0]).powi(2) + (v.z - exact[2]).powi(2);
+        }
+        let error = (square / f64::from(count)).sqrt() / deviation;
+        assert!(error < 5.0 * allowed && error < 0.5 * last, "{tolerance}: {error:e}");
+        last = error;
+    }
+}
+
 /// Places and times in any order, forwards and back, more of them than there is room for: each answer has the bits of one that a fresh sea
 /// gives.
 #[test]

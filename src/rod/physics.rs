@@ -62,7 +62,7 @@ impl Surroundings {
         Surroundings {
             stretch: scene.solver.law(),
             current: (!current.is_still()).then_some(current),
-            waves: Waves::of(&scene.environment),
+            waves: Waves::of(&scene.environment).map(|waves| waves.good_to(scene.solver.tolerance)),
             ground: Some(ground(&scene.environment, mesh)),
             surface: (scene.environment.surface == types::Surface::Pierced).then(|| Surface::new(mesh)),
             planar: false,

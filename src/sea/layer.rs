@@ -16,10 +16,8 @@ pub const TERMS: usize = MOST_LANES;
 pub const POWERS: usize = 6;
 /// Half a span of time times half the band of frequencies, at most [-].
 const WHILE: f64 = 5.0;
-/// Standard deviation of what a series in space or in time leaves out of the velocity, per that of the velocity at the surface [-].
-const ERROR: f64 = 3.0e-6;
-/// The same of the elevation, which is felt through the depth of a point alone.
-const ERROR_OF_ELEVATION: f64 = 1.0e-5;
+/// So many times the error of the velocity is allowed to the elevation, which is felt through the depth of a point alone.
+const ERROR_OF_ELEVATION: f64 = 3.0;
 /// Distance of the corner of a cell from its middle times the largest wave number, at most [-].
 const AWAY: f64 = 4.0;
 /// Half a slot times the highest frequency, at most [-].
@@ -72,6 +70,8 @@ pub struct Water {
     pub direction: f64,
     /// How motions are carried to the surface.
     pub stretching: Stretching,
+    /// Standard deviation of what a series in space or in time leaves out of the velocity, per that of the velocity at the surface [-].
+    pub error: f64,
 }
 
 /// Cells of one height.
@@ -105,14 +105,14 @@ impl Layer {
     /// Sums are taken over `nodes` of unit amplitude, which stand for the components; without any, over the components.
     pub fn of_elevations(members: &[Member], nodes: Option<&[Member]>, water: &Water) -> Layer {
         let scale = size(members, |member| member.amplitude);
-        let (last, error) = (members[members.len() - 1].number, ERROR_OF_ELEVATION * scale);
+        let (last, error) = (members[members.len() - 1].number, ERROR_OF_ELEVATION * water.error * scale);
         let half = within(members, error, last, |member| member.amplitude);
         Layer::new(members, nodes, water, [0.0, half, error], |member| (member.amplitude, 0.0))
     }
 
     /// The layer below a height, or none where nothing reaches.
     pub fn of_velocities(members: &[Member], nodes: Option<&[Member]>, water: &Water, top: f64) -> Option<Layer> {
-        let error = ERROR * size(members, |member| member.speed);
+        let error = water.error * size(members, |member| member.speed);
         // Both together are less than twice the first.
         let at = |z: f64| move |member: &Member| member.speed * (member.number * z).exp();
         let reached = reaching(members, error, at(top));

@@ -12,7 +12,7 @@
 //! sums over the sixteen S_j, and a point of the line costs a polynomial of 8 × 6 terms and its rate, however many components there are.
 //!
 //! Velocities of a plane flow are analytic: u + iw = Σ B e^(kζ) + Σ B′* e^(-kζ), B′ what the bed sends back. Sizes of cells and slots are such
-//! that what the series leave out is `ERROR` of the velocity at the surface, both as standard deviations: the deeper a cell, the less
+//! that what the series leave out is `Water::error` of the velocity at the surface, both as standard deviations: the deeper a cell, the less
 //! components reach it, the larger it is, and the longer its slots. Elevations have cells of their own, on z = 0.
 //!
 //! All numbers kept are functions of cell, span and slot alone: whatever was asked for before, and whatever had to make room,

@@ -98,6 +98,12 @@ const ROWS: usize = Row::Echo as usize + 1;
 
 /// Components are left out where less than this share of their motion at the surface is left.
 const FAINT: f64 = 1.0e-4;
+/// What sums by cells leave out of the velocity at the surface, both as standard deviations [-], where nothing else is asked for.
+const ERROR: f64 = 3.0e-6;
+/// The same by the tolerance of tensions, and between which bounds: tensions are then good to a fiftieth of the tolerance.
+const SHARE: f64 = 0.03;
+const LEAST_ERROR: f64 = 1.0e-6;
+const MOST_ERROR: f64 = 1.0e-4;
 /// No more directions than this are tried for cells.
 const MOST_DIRECTIONS: usize = 1000;
 /// A random sea's crests are counted on up to this many standard deviations; one higher is rarer than one in 10²¹ waves.
@@ -136,12 +142,12 @@ impl Waves {
 
     /// A sea of components in water of a depth [m], eased in over `ramp` [s], with Wheeler's stretching.
     pub fn new(waves: &[Wave], gravity: f64, depth: f64, ramp: f64) -> Waves {
-        Waves::summed(waves.to_vec(), gravity, depth, ramp, Stretching::Wheeler, true)
+        Waves::summed(waves.to_vec(), gravity, depth, ramp, Stretching::Wheeler, Some(ERROR))
     }
 
     /// A steady wave of the fifth order, of a direction and a phase [rad]: its harmonics are bound, and hold up to the crest as they stand.
     pub fn steady(wave: &Stokes, [direction, phase]: [f64; 2], gravity: f64, depth: f64, ramp: f64) -> Waves {
-        let mut sea = Waves::summed(Vec::new(), gravity, depth, ramp, Stretching::Wheeler, false);
+        let mut sea = Waves::summed(Vec::new(), gravity, depth, ramp, Stretching::Wheeler, None);
         sea.rows = std::array::from_fn(|_| vec![0.0; padded(ORDER) + MOST_LANES]);
         for n in 0..ORDER {
             let harmonic = (n + 1) as f64;
@@ -161,17 +167,29 @@ impl Waves {
             return self;
         }
         let Waves { crest, gravity, depth, ramp, stream, .. } = self;
-        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, true) }
+        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, Some(ERROR)) }
+    }
+
+    /// The same sea with sums by cells that are good enough for tensions to a tolerance: what they leave out of the velocity is `SHARE` of it, as standard
+    /// deviations of both at the surface.
+    pub fn good_to(self, tolerance: f64) -> Waves {
+        if self.near.is_empty() {
+            return self;
+        }
+        let Waves { crest, gravity, depth, ramp, stretching, stream, .. } = self;
+        let error = (SHARE * tolerance).clamp(LEAST_ERROR, MOST_ERROR);
+        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, Some(error)) }
     }
 
     /// The same sea with its components summed one by one everywhere: what sums by cells are judged by.
     pub fn one_by_one(self) -> Waves {
         let Waves { crest, gravity, depth, ramp, stretching, stream, .. } = self;
-        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, false) }
+        Waves { crest, stream, ..Waves::summed(self.waves, gravity, depth, ramp, stretching, None) }
     }
 
-    /// A sea whose directions are summed by cells, each where it has enough components and cells are allowed.
-    fn summed(waves: Vec<Wave>, gravity: f64, depth: f64, ramp: f64, stretching: Stretching, cells: bool) -> Waves {
+    /// A sea whose directions are summed by cells, each where it has enough components and an error of the velocity is allowed, by its standard deviation at
+    /// the surface [-].
+    fn summed(waves: Vec<Wave>, gravity: f64, depth: f64, ramp: f64, stretching: Stretching, error: Option<f64>) -> Waves {
         let mut numbered: Vec<(f64, &Wave)> = waves.iter().map(|wave| (wave_number(wave.omega, gravity, depth), wave)).collect();
         numbered.sort_by(|one, other| one.0.total_cmp(&other.0));
         let crest = waves.iter().map(|wave| wave.amplitude).sum::<f64>();
@@ -180,7 +198,7 @@ impl Waves {
         let all = rows_of(&numbered, depth);
         let mean = mean(&all, numbered.len(), gravity, depth);
         let mut near = Vec::new();
-        if cells {
+        if let Some(error) = error {
             let mut directions: Vec<f64> = Vec::new();
             numbered.iter().filter(|(_, wave)| wave.amplitude > 0.0).for_each(|(_, wave)| {
                 if !directions.contains(&wave.direction) && directions.len() <= MOST_DIRECTIONS {
@@ -190,7 +208,7 @@ impl Waves {
             for direction in directions {
                 let own: Vec<(f64, &Wave)> = numbered.iter().filter(|(_, wave)| wave.direction == direction).copied().collect();
                 let members = members(&rows_of(&own, depth), own.len());
-                if let Some(by_cells) = Near::new(&members, Water { gravity, depth, height, direction, stretching }) {
+                if let Some(by_cells) = Near::new(&members, Water { gravity, depth, height, direction, stretching, error }) {
                     near.push(by_cells);
                     numbered.retain(|(_, wave)| wave.direction != direction);
                 }

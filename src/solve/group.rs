@@ -703,7 +703,8 @@ impl Group {
 
 fn surround(scene: &Scene) -> Surround {
     let environment = &scene.environment;
-    let (waves, current) = (Waves::of(environment), Current::new(&environment.current));
+    let waves = Waves::of(environment).map(|waves| waves.good_to(scene.solver.tolerance));
+    let current = Current::new(&environment.current);
     let flows = waves.is_some() || !current.is_still();
     let sea = flows
         .then(|| Sea { waves: waves.unwrap_or_else(|| Waves::new(&[], environment.gravity, environment.depth, 0.0)), current });
