@@ -103,13 +103,16 @@ pub mod rod {
 
 /// What the water does at a place.
 pub mod sea {
+    pub mod beside;
     pub mod clock;
+    pub mod columns;
     pub mod current;
     pub mod drawing;
     pub mod figures;
     pub mod layer;
     pub mod near;
     pub mod random;
+    pub mod region;
     pub mod series;
     pub mod shelf;
     pub mod spectrum;

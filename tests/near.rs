@@ -1,15 +1,19 @@
 //! Waves summed by cells (`sea/near.rs`) against sums of all components by textbook formulas, and whether answers depend on what was asked
 //! before.
 
+use moorline::algebra::lanes::Lanes;
+use moorline::algebra::real::{MOST_LANES, Real};
 use moorline::algebra::triple::Triple;
 use moorline::scene::read;
 use moorline::scene::types::Stretching;
+use moorline::sea::beside::{Beside, Place};
 use moorline::sea::clock::Clock;
 use moorline::sea::spectrum::Jonswap;
 use moorline::sea::wave::{Wave, wave_number};
 use moorline::sea::waves::Waves;
 use moorline::solve::motion::Path;
 use moorline::solve::simulation::Simulation;
+use pulp::{Arch, Simd, WithSimd};
 use std::path::Path as FilePath;
 
 const G: f64 = 9.80665;
@@ -173,6 +177,93 @@ fn answers_do_not_depend_on_what_was_asked_before() {
     for (n, question) in questions.iter().enumerate().step_by(50) {
         assert_eq!(answer(&sea.clone(), question), first[n], "asked of a fresh sea: {question:?}");
     }
+}
+
+/// Points that wander, asked for side by side.
+struct Wander<'a> {
+    sea: &'a Waves,
+    beside: &'a mut Beside,
+    time: f64,
+    places: &'a [[f64; MOST_LANES]; 3],
+    wanted: [f64; MOST_LANES],
+}
+
+impl WithSimd for Wander<'_> {
+    type Output = [[f64; MOST_LANES]; 7];
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> Self::Output {
+        let Wander { sea, beside, time, places: [x, y, z], wanted } = self;
+        let mut rows = [[0.0; MOST_LANES]; 7];
+        for first in (0..MOST_LANES).step_by(V::F64_LANES) {
+            let place = Place { clock: late(time), at: Triple::load(cpu, [x, y, z], first) };
+            let wanted = Lanes::load(cpu, &wanted, first);
+            let motions = beside.motions(cpu, sea, MOST_LANES + first, &place, wanted);
+            rows.iter_mut().zip(motions).for_each(|(row, of)| of.store(row, first));
+            beside.elevation(cpu, sea, MOST_LANES + first, &place, wanted).store(&mut rows[6], first);
+        }
+        rows
+    }
+}
+
+/// What points keep is what they would be told if they asked: eight that wander through cells, layers and slots, slowly, in leaps and back in time, under
+/// the surface, above it and below all waves, some of them not looked at for a while; in seas by cells, by components, of two directions with a
+/// swell, and of one wave. To 1e-9 of the largest: the same polynomials, summed in another order. And whatever they kept before, the bits are those of points that
+/// have just begun.
+#[test]
+fn points_that_keep_the_sea_are_told_the_same() {
+    let turned = |waves: Vec<Wave>, direction: f64| waves.into_iter().map(move |wave| Wave { direction, ..wave });
+    let wind = jonswap(3.0, 8.0, 5, 60);
+    let crossing: Vec<Wave> = turned(wind.clone(), 0.4)
+        .chain(turned(jonswap(2.0, 13.0, 6, 50), -1.1))
+        .chain([Wave { amplitude: 0.5, omega: 0.5, direction: 2.0, phase: 1.0 }])
+        .collect();
+    let single = vec![Wave { amplitude: 2.0, omega: 0.6, direction: 0.3, phase: 0.5 }];
+    let seas = [
+        Waves::new(&wind, G, 90.0, 0.0),
+        Waves::new(&wind, G, 30.0, 0.0).stretched(Stretching::Vertical),
+        Waves::new(&wind, G, 90.0, 0.0).stretched(Stretching::None),
+        Waves::new(&crossing, G, 200.0, 0.0),
+        Waves::new(&jonswap(4.0, 10.0, 8, 400), G, 100.0, 0.0),
+        Waves::new(&single, G, 50.0, 0.0),
+    ];
+    let processor = Arch::new();
+    let mut random = Random(11);
+    for (number, sea) in seas.iter().enumerate() {
+        let mut worn = Beside::new(sea, 2 * MOST_LANES, 0).expect("keeps the sea");
+        let mut places: [[f64; MOST_LANES]; 3] = [
+            [0.0; MOST_LANES].map(|_| 800.0 * random.next()),
+            [0.0; MOST_LANES],
+            [0.0; MOST_LANES].map(|_| -60.0 * random.next()),
+        ];
+        let (mut time, mut worst) = (20.0, 0.0_f64);
+        for n in 0..600 {
+            let leap = if n % 97 == 0 { 40.0 } else { 0.3 };
+            places.iter_mut().flatten().for_each(|x| *x += leap * (random.next() - 0.5));
+            places[2].iter_mut().for_each(|z| *z = z.clamp(-90.0, 4.0));
+            time += if n % 50 == 0 { -7.0 } else { 0.4 * random.next() };
+            let wanted = [0.0; MOST_LANES].map(|_: f64| if n % 5 == 0 && random.next() < 0.5 { 0.0 } else { 1.0 });
+            let found = processor.dispatch(Wander { sea, beside: &mut worn, time, places: &places, wanted });
+            let mut fresh = Beside::new(sea, 2 * MOST_LANES, 0).expect("keeps the sea");
+            let begun = processor.dispatch(Wander { sea: &sea.clone(), beside: &mut fresh, time, places: &places, wanted });
+            for lane in (0..MOST_LANES).filter(|lane| wanted[*lane] > 0.0) {
+                let [x, y, z] = places.map(|row| row[lane]);
+                let flow = sea.flow((), &late(time), &Triple { x, y, z });
+                let (v, a) =
+                    flow.map_or(([0.0; 3], [0.0; 3]), |flow| (flow.velocity.components(()), flow.acceleration.components(())));
+                // What reaches no deeper than the floor is asked for no deeper either.
+                let deep = z <= sea.floor();
+                let all = [v[0], v[1], v[2], a[0], a[1], a[2], sea.elevation(&late(time), x, y)];
+                for (c, exact) in all.iter().enumerate().filter(|(c, _)| !deep || *c == 6) {
+                    worst = worst.max((found[c][lane] - exact).abs());
+                    assert_eq!(found[c][lane].to_bits(), begun[c][lane].to_bits(), "sea {number}, step {n}, lane {lane}, {c}");
+                }
+            }
+        }
+        assert!(worst < 1e-9 * 4.0, "sea {number}: {worst:e}");
+    }
+    let spread: Vec<Wave> = (0..10).flat_map(|n| turned(wind.clone(), 0.1 * f64::from(n))).collect();
+    assert!(Beside::new(&Waves::new(&spread, G, 90.0, 0.0), 8, 0).is_none(), "with many directions points ask for themselves");
 }
 
 /// A sea of components, and the same with each turned by a millionth of a degree from the one before, which has them summed one by one.

@@ -19,7 +19,7 @@ use crate::rod::elasticity::Curves;
 use crate::rod::ends::Ends;
 use crate::rod::flows::Flows;
 use crate::rod::mesh::Mesh;
-use crate::rod::morison::{self, Coefficients, PointMotion, Water};
+use crate::rod::morison::{self, Coefficients, Past, PointMotion, Water};
 use crate::rod::motion::Motion;
 use crate::rod::seabed::Bed;
 use crate::rod::state::COMPONENTS;
@@ -228,7 +228,7 @@ pub(in crate::rod) struct Source<'a, W> {
     pub water: &'a W,
     bed: Option<&'a Bed>,
     /// The motion of the waves at the Gauss points, where it is known.
-    flows: Option<&'a Flows>,
+    pub flows: Option<&'a Flows>,
     pub u: [&'a [f64]; COMPONENTS],
     pub v: [&'a [f64]; COMPONENTS],
     pub a: [&'a [f64]; COMPONENTS],
@@ -246,6 +246,18 @@ impl<'a, W> Source<'a, W> {
             u: at.u.rows(),
             v: at.v.rows(),
             a: at.a.rows(),
+        }
+    }
+
+    /// The motion of the water past point `g` of the elements from `e` on.
+    #[inline(always)]
+    pub fn past<F: Real>(&self, cpu: F::Cpu, point: &PointMotion<F>, g: usize, e: usize) -> Past<F>
+    where
+        W: Water,
+    {
+        match self.flows {
+            Some(flows) if W::WAVES => self.water.past_with(cpu, point, &flows.get(cpu, g, e)),
+            _ => self.water.past(cpu, point),
         }
     }
 }
@@ -287,10 +299,7 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
         if W::PRESENT {
             let velocity = v.combine(&shape.value);
             let point = PointMotion { clock: source.clock, direction, place: u.combine(&shape.value), velocity, acceleration };
-            let past = match source.flows {
-                Some(flows) if W::WAVES => source.water.past_with(cpu, &point, &flows.get(cpu, g, e)),
-                _ => source.water.past(cpu, &point),
-            };
+            let past = source.past(cpu, &point, g, e);
             x = morison::force_past(source.water, &coefficients, &point, past).mul_add(-wet, x);
         }
         let x = x * w;

@@ -16,6 +16,7 @@ use crate::algebra::tensor::Tensor;
 use crate::rod::bending::Bending;
 use crate::rod::element::{Batch, Property, Source, Table, with_curve};
 use crate::rod::ends::Ends;
+use crate::rod::flows::Flows;
 use crate::rod::morison::{self, PointMotion, Water};
 use crate::rod::motion::{Motion, Weights};
 use crate::rod::stretch::{By, Direction, Stretch};
@@ -157,13 +158,15 @@ impl<F: Real> ElementTangent<F> {
 pub fn tangent<S: Stretch, W: Water, B: Bending, D: Dimension>(
     table: &Table,
     water: &W,
+    flows: Option<&Flows>,
     at: &Motion,
     weights: &Weights,
     geometric: Option<&[f64]>,
     runs: &[(usize, usize)],
     matrix: &mut BlockTridiagonal<6>,
 ) {
-    let source = Source::new(table, water, None, at);
+    let mut source = Source::new(table, water, None, at);
+    source.flows = flows;
     table.processor.dispatch(Assembly::<S, W, B, D> { runs, source, weights, geometric, matrix, laws: PhantomData });
 }
 
@@ -239,7 +242,8 @@ fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending, D: Dimension>(
                 velocity: v.combine(&shape.value),
                 acceleration: a.combine(&shape.value),
             };
-            let water = morison::tangent(cpu, source.water, &coefficients, &motion, weights);
+            let past = source.past(cpu, &motion, g, e);
+            let water = morison::tangent_past(cpu, source.water, &coefficients, &motion, past, weights);
             point.load = water.by_motion.mul_add(-wet, point.load);
             point.turning = water.by_slope.times(-wet);
         }

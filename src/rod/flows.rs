@@ -10,6 +10,7 @@ use crate::algebra::shape::SHAPES3;
 use crate::algebra::triple::Triple;
 use crate::rod::ends::Ends;
 use crate::rod::motion::{Asking, Motion};
+use crate::sea::beside::{Beside, Place};
 use crate::sea::waves::{Flow, Waves};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -29,24 +30,33 @@ pub struct Flows {
     asked: [Vec<f64>; 3],
     /// Velocities [m/s], then accelerations [m/s²].
     rows: [Vec<f64>; 6],
+    /// What the points keep of the sea, where that pays.
+    beside: Option<Beside>,
     processor: Arch,
 }
 
 impl Flows {
     /// Room for elements of lengths [m] and heights below which each is certainly wet [m].
-    pub fn new(mut lengths: Vec<f64>, mut waterlines: Vec<f64>) -> Flows {
+    pub fn new(waves: &Waves, mut lengths: Vec<f64>, mut waterlines: Vec<f64>) -> Flows {
         let elements = lengths.len();
         let stride = padded(elements);
         lengths.resize(stride, 0.0);
-        waterlines.resize(stride, 0.0);
+        // What is behind the last is never wet.
+        waterlines.resize(stride, f64::NEG_INFINITY);
         let row = |_| vec![0.0; SHAPES3.len() * stride];
         let (asked, rows) = (std::array::from_fn(row), std::array::from_fn(row));
-        Flows { elements, lengths, waterlines, stride, asked, rows, processor: Arch::new() }
+        let beside = Beside::new(waves, SHAPES3.len() * stride, 0);
+        Flows { elements, lengths, waterlines, stride, asked, rows, beside, processor: Arch::new() }
     }
 
-    /// Asks for what is not known yet in the stage of a motion.
-    pub fn update(&mut self, waves: &Waves, at: &Motion) {
-        self.processor.dispatch(Update { flows: self, waves, at });
+    /// Whether it is cheap to ask for all points.
+    pub fn is_cheap(&self) -> bool {
+        self.beside.is_some()
+    }
+
+    /// Asks for what is not known yet in the stage of a motion, or, `anew`, for all.
+    pub fn update(&mut self, waves: &Waves, at: &Motion, anew: bool) {
+        self.processor.dispatch(Update { flows: self, waves, at, first: anew || at.asking != Asking::Again });
     }
 
     /// The motions at point `g` of the elements from `e` on.
@@ -92,6 +102,7 @@ struct Update<'a> {
     flows: &'a mut Flows,
     waves: &'a Waves,
     at: &'a Motion<'a>,
+    first: bool,
 }
 
 impl WithSimd for Update<'_> {
@@ -99,42 +110,55 @@ impl WithSimd for Update<'_> {
 
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) {
-        let Update { flows, waves, at } = self;
-        let (rows, first) = (at.u.rows(), at.asking != Asking::Again);
+        let Update { flows, waves, at, first } = self;
+        let rows = at.u.rows();
         let (reach, floor) = (NEAR / waves.mean().1, waves.lowest_motion());
         let mut questions = Questions { count: 0, places: [[0.0; MOST_LANES]; 3], to: [0; MOST_LANES] };
+        let one = Lanes::<V>::splat(cpu, 1.0);
         for e in (0..flows.elements).step_by(V::F64_LANES) {
             let u = Ends::load(cpu, &rows, e, Lanes::<V>::load(cpu, &flows.lengths, e));
-            let wet = u.wet(Lanes::load(cpu, &flows.waterlines, e)).lanes();
+            // Elements that may not be all wet have points of their own.
+            let wet = u.wet(Lanes::load(cpu, &flows.waterlines, e));
             for (g, shape) in SHAPES3.iter().enumerate() {
-                let [x, y, z] = u.combine(&shape.value).components(cpu);
+                let at_point = u.combine(&shape.value);
+                let place = at_point.components(cpu);
                 let from = g * flows.stride + e;
-                let far = |now: Lanes<V>, row: &[f64]| {
-                    let off = now - Lanes::load(cpu, row, from);
-                    off.max(-off) + -reach
-                };
-                let [ax, ay, az] = &flows.asked;
-                if !first && !far(x, ax).max(far(y, ay)).max(far(z, az)).any_positive() {
-                    continue;
-                }
-                let places = [x.lanes(), y.lanes(), z.lanes()];
-                for lane in 0..V::F64_LANES.min(flows.elements - e) {
-                    let (place, to) = (places.map(|row| row[lane]), from + lane);
-                    let near = |(now, row): (&f64, &Vec<f64>)| (now - row[to]).abs() <= reach;
-                    if !first && place.iter().zip(&flows.asked).all(near) {
+                let mut moved = one;
+                if !first {
+                    let [ax, ay, az] = &flows.asked;
+                    let x = place[0] - Lanes::load(cpu, ax, from);
+                    let y = place[1] - Lanes::load(cpu, ay, from);
+                    let z = place[2] - Lanes::load(cpu, az, from);
+                    moved = (x.max(-x).max(y.max(-y)).max(z.max(-z)) + -reach).positive();
+                    if !moved.any_positive() {
                         continue;
                     }
-                    // Elements that may not be all wet have points of their own.
-                    let wanted = wet[lane] > 0.0;
-                    let place = if wanted { place } else { [f64::INFINITY; 3] };
-                    flows.asked.iter_mut().zip(place).for_each(|(row, number)| row[to] = number);
-                    if wanted && place[2] > floor {
+                }
+                let wanted = moved * wet * (place[2] + -floor).positive();
+                let mut answers = None;
+                if let Some(beside) = flows.beside.as_mut().filter(|_| wanted.any_positive()) {
+                    let found = beside.motions(cpu, waves, from, &Place { clock: at.clock, at: at_point }, wanted);
+                    if !(one - wanted).any_positive() {
+                        flows.asked.iter_mut().zip(place).for_each(|(row, place)| place.store(row, from));
+                        flows.rows.iter_mut().zip(found).for_each(|(row, answer)| answer.store(row, from));
+                        continue;
+                    }
+                    answers = Some(found.map(Lanes::lanes));
+                }
+                let (places, moved, wet, wanted) = (place.map(Lanes::lanes), moved.lanes(), wet.lanes(), wanted.lanes());
+                for lane in (0..V::F64_LANES.min(flows.elements - e)).filter(|lane| moved[*lane] > 0.0) {
+                    let (place, to) = (places.map(|row| row[lane]), from + lane);
+                    let asked = if wet[lane] > 0.0 { place } else { [f64::INFINITY; 3] };
+                    flows.asked.iter_mut().zip(asked).for_each(|(row, number)| row[to] = number);
+                    if wanted[lane] == 0.0 {
+                        flows.rows.iter_mut().for_each(|row| row[to] = 0.0);
+                    } else if let Some(answers) = &answers {
+                        flows.rows.iter_mut().zip(answers).for_each(|(row, answer)| row[to] = answer[lane]);
+                    } else {
                         questions.put(place, to);
                         if questions.count == MOST_LANES {
                             questions.answer(flows, waves, at);
                         }
-                    } else {
-                        flows.rows.iter_mut().for_each(|row| row[to] = 0.0);
                     }
                 }
             }

@@ -24,6 +24,7 @@ use crate::rod::state::Field;
 use crate::rod::stretch::Stretch;
 use crate::rod::system::System;
 use crate::rod::touching::Ground;
+use crate::sea::beside::Beside;
 use nalgebra::Vector3;
 use std::marker::PhantomData;
 use std::ops::AddAssign;
@@ -79,15 +80,14 @@ pub struct Rod<S, W, B, D> {
     surface: Option<Surface>,
     /// What the waves do in a stage.
     flows: Option<Mutex<Flows>>,
+    /// What the points of elements that pierce the surface keep of the sea.
+    piercing: Option<Mutex<Beside>>,
     joints: Vec<usize>,
     /// Joints that transmit a moment, and their rotational stiffness [N·m].
     stiff_joints: Vec<(usize, f64)>,
     supports: Supports,
     laws: PhantomData<(S, B, D)>,
 }
-
-/// So many waves cost less to ask in every iteration than to keep.
-const FEW: usize = 2;
 
 /// What holds a line and what pulls at its nodes besides its own loads.
 #[derive(Debug, Clone, Default)]
@@ -112,21 +112,39 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
         let bed = ground.as_ref().filter(|_| lying.is_none()).map(|ground| Bed::new(ground.plane, &ground.resistance));
         let joints = (0..table.len()).filter(|e| table.is_joint(*e) && !mesh.gaps.contains(e)).collect();
         let stiff_joints = joint::stiffnesses(&mesh).into_iter().enumerate().filter(|(_, kappa)| *kappa > 0.0).collect();
-        let flows = water.waves().is_some_and(|waves| waves.components() > FEW).then(|| {
+        let flows = water.waves().map(|waves| {
             let of = |number: &dyn Fn(usize) -> f64| (0..table.len()).map(number).collect();
-            Mutex::new(Flows::new(of(&|e| table.length_of(e)), of(&|e| table.waterline_of(e))))
+            Mutex::new(Flows::new(waves, of(&|e| table.length_of(e)), of(&|e| table.waterline_of(e))))
         });
-        Rod { mesh, table, water, ground, bed, lying, surface, flows, joints, stiff_joints, supports, laws: PhantomData }
+        let piercing = water.waves().filter(|_| surface.is_some()).and_then(Surface::beside).map(Mutex::new);
+        Rod {
+            mesh,
+            table,
+            water,
+            ground,
+            bed,
+            lying,
+            surface,
+            flows,
+            piercing,
+            joints,
+            stiff_joints,
+            supports,
+            laws: PhantomData,
+        }
     }
 
-    /// The motion of the waves as the stage of a motion has it; none: it is asked for where the line is.
-    fn flows_of(&self, at: &Motion) -> Option<MutexGuard<'_, Flows>> {
+    /// The motion of the waves as the stage of a motion has it, or, `anew`, where the line is; none: it is to be asked for there.
+    fn flows_of(&self, at: &Motion, anew: bool) -> Option<MutexGuard<'_, Flows>> {
         let (Some(waves), Some(flows)) = (self.water.waves(), &self.flows) else { return None };
-        if at.asking == Asking::Alone {
+        if !anew && at.asking == Asking::Alone {
             return None;
         }
         let mut flows = flows.lock().unwrap_or_else(PoisonError::into_inner);
-        flows.update(waves, at);
+        if anew && !flows.is_cheap() {
+            return None;
+        }
+        flows.update(waves, at, anew);
         Some(flows)
     }
 
@@ -143,10 +161,17 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> Rod<S, W, B, D> {
         self.supports.holds.iter().filter(|hold| hold.locks()).for_each(|hold| hold.project(out));
     }
 
+    fn kept(&self) -> Option<MutexGuard<'_, Beside>> {
+        Some(self.piercing.as_ref()?.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// What a bed that touches in part and a surface above some of it add to the forces on the ends of element `e`.
     fn partial_forces(&self, at: &Motion, e: usize, touching: bool, dry: bool) -> [Option<[Triple<f64>; 4]>; 2] {
         let ground = self.ground.as_ref().filter(|_| touching).and_then(|ground| ground.forces(&self.table, at, e));
-        let surface = self.surface.as_ref().filter(|_| dry).and_then(|surface| surface.forces(&self.table, &self.water, at, e));
+        let surface = self.surface.as_ref().filter(|_| dry).and_then(|surface| {
+            let mut kept = self.kept();
+            surface.forces(&self.table, &self.water, kept.as_deref_mut(), at, e)
+        });
         [ground, surface]
     }
 
@@ -195,7 +220,7 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
                 element::scatter_to_nodes(out, e, self.table.length_of(e), &part);
             }
         };
-        let flows = self.flows_of(at);
+        let flows = self.flows_of(at, false);
         element::residual::<S, W, B, D>(&self.table, &self.water, self.bed.as_ref(), flows.as_deref(), at, runs, out, partly);
         drop(flows);
         if let Some((lying, ground)) = self.lying.as_ref().zip(self.ground.as_ref()) {
@@ -235,13 +260,16 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
         runs: &[(usize, usize)],
         matrix: &mut BlockTridiagonal<6>,
     ) {
-        element_tangent::tangent::<S, W, B, D>(&self.table, &self.water, at, weights, geometric, runs, matrix);
+        // A factor that is made again from a state must have the same bits: what a stage keeps is not looked at.
+        let flows = self.flows_of(at, true);
+        element_tangent::tangent::<S, W, B, D>(&self.table, &self.water, flows.as_deref(), at, weights, geometric, runs, matrix);
+        drop(flows);
         for e in runs.iter().flat_map(|(first, end)| *first..end - 1) {
             if let Some(ground) = &self.ground {
                 ground.tangent(&self.table, at, e, weights, matrix);
             }
             if let Some(surface) = &self.surface {
-                surface.tangent(&self.table, &self.water, at, e, weights, matrix);
+                surface.tangent(&self.table, &self.water, self.kept().as_deref_mut(), at, e, weights, matrix);
             }
         }
         for &(e, kappa) in &self.stiff_joints {

@@ -212,13 +212,7 @@ impl Water for Sea {
     }
 }
 
-/// Force f of the water on the line per unstretched length [N/m]. About 50 operations and a square root.
-#[inline(always)]
-pub fn force<F: Real, W: Water>(cpu: F::Cpu, water: &W, k: &Coefficients<F>, at: &PointMotion<F>) -> Triple<F> {
-    force_past(water, k, at, water.past(cpu, at))
-}
-
-/// The same where the motion of the water past the line is known.
+/// Force f of the water that moves past the line per unstretched length [N/m]. About 50 operations and a square root.
 #[inline(always)]
 pub fn force_past<F: Real, W: Water>(water: &W, k: &Coefficients<F>, at: &PointMotion<F>, past: Past<F>) -> Triple<F> {
     let t = at.direction.tangent;
@@ -238,15 +232,15 @@ pub fn force_past<F: Real, W: Water>(water: &W, k: &Coefficients<F>, at: &PointM
 /// dt = (1 - t tᵀ) dr′/|r′|,   dqt = qn·dr′/|r′|,   dqn = -(t qnᵀ + qt (1 - t tᵀ)) dr′/|r′|
 /// ```
 #[inline(always)]
-pub fn tangent<F: Real, W: Water>(
+pub fn tangent_past<F: Real, W: Water>(
     cpu: F::Cpu,
     water: &W,
     k: &Coefficients<F>,
     at: &PointMotion<F>,
+    past: Past<F>,
     weights: &Weights,
 ) -> WaterTangent<F> {
     let t = at.direction.tangent;
-    let past = water.past(cpu, at);
     let (q, a) = (past.velocity, at.acceleration - past.acceleration);
     let qt = t.dot(q);
     let qn = t.mul_add(-qt, q);

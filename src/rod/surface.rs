@@ -21,13 +21,18 @@ use nalgebra::Vector3;
 /// Most parts of an element that differ in how wet they are.
 pub const MOST_PARTS: usize = 12;
 
+/// Where on an element, by its length, its height above waves is taken.
+pub const TAKEN_AT: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+
 /// Height of an element above the surface of the waves [m].
 pub fn above_waves<W: Water>(u: &Ends<f64>, water: &W, clock: &Clock) -> Cubic {
-    let height = |x: f64| {
-        let place = Vector3::from(u.combine(&Shape::at(x).value));
-        place.z - water.elevation(clock, &place)
-    };
-    Cubic::through([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(height))
+    above(u, TAKEN_AT.map(|x| water.elevation(clock, &Vector3::from(u.combine(&Shape::at(x).value)))))
+}
+
+/// Height of an element above a surface whose elevation at `TAKEN_AT` is known [m].
+pub fn above(u: &Ends<f64>, elevations: [f64; 4]) -> Cubic {
+    let height = |k: usize| u.combine(&Shape::at(TAKEN_AT[k]).value).z - elevations[k];
+    Cubic::through([0, 1, 2, 3].map(height))
 }
 
 /// Parts of an element, in order, with room for the most there can be.

@@ -3,7 +3,7 @@
 use crate::algebra::lanes::Lanes;
 use crate::algebra::real::{MOST_LANES, Real};
 use crate::scene::types::Stretching;
-use crate::sea::series::cos_sin;
+use crate::sea::series::{DECAYED, cos_sin};
 use crate::sea::wave::wave_number;
 use pulp::Simd;
 use std::f64::consts::PI;
@@ -28,6 +28,8 @@ const BRIEF: f64 = 2.0;
 pub const MOTION: usize = 2 * TERMS * POWERS;
 /// Numbers of a polynomial of elevations.
 pub const SWELL: usize = TERMS * POWERS;
+/// Of waves that stand for others, those are left out that keep less than this share of the motion of the longest.
+const FAINT: f64 = 1.0e-5;
 /// A band of frequencies is at least this share of its highest.
 const NARROWEST: f64 = 1.0e-3;
 
@@ -46,6 +48,15 @@ pub struct Member {
     pub speed: f64,
     /// Whether the bed sends anything back.
     pub echoes: bool,
+}
+
+impl Member {
+    /// A component of k [1/m], ω [rad/s], phase [rad] and amplitude [m] in water of a depth [m].
+    pub fn new(number: f64, omega: f64, phase: f64, amplitude: f64, depth: f64) -> Member {
+        let echoes = number * depth < DECAYED;
+        let speed = amplitude * omega / if echoes { -(-2.0 * number * depth).exp_m1() } else { 1.0 };
+        Member { number, omega, phase, amplitude, speed, echoes }
+    }
 }
 
 /// The sea in which the components travel.
@@ -82,7 +93,7 @@ pub struct Layer {
     rises: [[f64; POWERS]; STAND],
     /// cos ω_j τ and sin ω_j τ at the middles of the slots of a span.
     phasors: Vec<[[f64; STAND]; 2]>,
-    /// L_j(ω) of the components that reach here.
+    /// L_j(ω) of the components that reach here, or of the waves that stand for them.
     shares: Vec<[f64; STAND]>,
     /// |B| and |B′|; the latter empty where the bed sends nothing back.
     down: Vec<f64>,
@@ -91,21 +102,26 @@ pub struct Layer {
 
 impl Layer {
     /// The cells of elevations, on z = 0, of at least one component.
-    pub fn of_elevations(members: &[Member], water: &Water) -> Layer {
+    /// Sums are taken over `nodes` of unit amplitude, which stand for the components; without any, over the components.
+    pub fn of_elevations(members: &[Member], nodes: Option<&[Member]>, water: &Water) -> Layer {
         let scale = size(members, |member| member.amplitude);
         let (last, error) = (members[members.len() - 1].number, ERROR_OF_ELEVATION * scale);
         let half = within(members, error, last, |member| member.amplitude);
-        Layer::new(members, water, [0.0, half, error], |member| (member.amplitude, 0.0))
+        Layer::new(members, nodes, water, [0.0, half, error], |member| (member.amplitude, 0.0))
     }
 
     /// The layer below a height, or none where nothing reaches.
-    pub fn of_velocities(members: &[Member], water: &Water, top: f64) -> Option<Layer> {
+    pub fn of_velocities(members: &[Member], nodes: Option<&[Member]>, water: &Water, top: f64) -> Option<Layer> {
         let error = ERROR * size(members, |member| member.speed);
         // Both together are less than twice the first.
         let at = |z: f64| move |member: &Member| member.speed * (member.number * z).exp();
         let reached = reaching(members, error, at(top));
         let members = &members[..reached];
-        let last = members.last()?.number;
+        let nodes = nodes.map(|nodes| {
+            let least = FAINT * nodes.iter().map(at(top)).fold(0.0, f64::max);
+            &nodes[..nodes.iter().rposition(|node| at(top)(node) >= least).map_or(0, |last| last + 1)]
+        });
+        let last = members.last()?.number.max(nodes.and_then(|nodes| nodes.last()).map_or(0.0, |node| node.number));
         let mut half = 0.0;
         for _ in 0..5 {
             half = within(members, error, last, at(top - half)) / 2.0f64.sqrt();
@@ -115,11 +131,18 @@ impl Layer {
             let back = member.speed * (-member.number * (2.0 * water.depth + middle)).exp();
             (at(middle)(member), if member.echoes { back } else { 0.0 })
         };
-        Some(Layer::new(members, water, [middle, half, error], moved))
+        Some(Layer::new(members, nodes, water, [middle, half, error], moved))
     }
 
-    fn new(members: &[Member], water: &Water, [middle, half, error]: [f64; 3], moved: impl Fn(&Member) -> (f64, f64)) -> Layer {
-        let highest = members.last().map_or(1.0, |member| member.omega);
+    fn new(
+        members: &[Member],
+        nodes: Option<&[Member]>,
+        water: &Water,
+        [middle, half, error]: [f64; 3],
+        moved: impl Fn(&Member) -> (f64, f64),
+    ) -> Layer {
+        let last = |members: &[Member]| members.last().map_or(0.0, |member| member.omega);
+        let highest = last(members).max(last(nodes.unwrap_or(&[])));
         let lowest = members.first().map_or(0.0, |member| member.omega).min((1.0 - NARROWEST) * highest);
         let (centre, band) = (0.5 * (highest + lowest), 0.5 * (highest - lowest));
         let turn: [f64; STAND] = std::array::from_fn(|j| (2 * j + 1) as f64 * PI / (2 * STAND) as f64);
@@ -143,11 +166,12 @@ impl Layer {
             let total: f64 = pull.iter().sum();
             pull.map(|pull| pull / total)
         };
-        let (down, back): (Vec<f64>, Vec<f64>) = members.iter().map(&moved).unzip();
+        let summed = nodes.unwrap_or(members);
+        let (down, back): (Vec<f64>, Vec<f64>) = summed.iter().map(&moved).unzip();
         // Longest first: what is too short to come back is left out.
-        let mut left_out = 0.0;
+        let (mut left_out, amplitude) = (0.0, if nodes.is_some() { size(members, |member| member.amplitude) } else { 1.0 });
         let faint = back.iter().rev().take_while(|back| {
-            left_out += **back * **back;
+            left_out += (amplitude * **back).powi(2);
             left_out < error * error
         });
         let back = back[..back.len() - faint.count()].to_vec();
@@ -169,27 +193,32 @@ impl Layer {
             terms,
             rises: omega.map(|omega| rise(0.5 * slot * omega)),
             phasors: phasors.collect(),
-            shares: members.iter().map(shares).collect(),
+            shares: summed.iter().map(shares).collect(),
             down,
             back,
         }
     }
 
-    /// S_j for a cell and a span about `time` [s], at `along` [m].
+    /// S_j for a cell and a span, `along` [m] and `time` [s] from where the waves that are summed have their phases; `turns`: their k/2π, ω/2π and φ/2π,
+    /// `factors`: real and imaginary parts of their amplitudes, where they are not 1.
     #[inline(always)]
     pub fn sums<V: Simd>(
         &self,
         cpu: V,
         turns: &[Vec<f64>; 3],
+        factors: Option<[&[f64]; 2]>,
         angles: &mut [Vec<f64>; 2],
-        along: f64,
-        time: f64,
+        [along, time]: [f64; 2],
     ) -> [[f64; STAND]; 4] {
         let [numbers, frequencies, phases] = turns;
         let [cosines, sines] = angles;
         for n in (0..self.down.len()).step_by(V::F64_LANES) {
-            let load = |row: &[f64]| Lanes::<V>::load(cpu, row, n);
-            let (cos, sin) = cos_sin(cpu, load(numbers).scale_add(along, load(frequencies).scale_add(-time, load(phases))));
+            let still = Lanes::<V>::load(cpu, frequencies, n).scale_add(-time, Lanes::load(cpu, phases, n));
+            let (mut cos, mut sin) = cos_sin(cpu, Lanes::load(cpu, numbers, n).scale_add(along, still));
+            if let Some([re, im]) = factors {
+                let (re, im) = (Lanes::<V>::load(cpu, re, n), Lanes::<V>::load(cpu, im, n));
+                (cos, sin) = (re * cos - im * sin, re * sin + im * cos);
+            }
             cos.store(cosines, n);
             sin.store(sines, n);
         }

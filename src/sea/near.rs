@@ -8,7 +8,7 @@
 //! B complex amplitude of a component at the middle of a cell of space and of a span of time, ζ = z + ix and τ place and time from there,
 //! ω_j Chebyshev's points between the lowest and the highest frequency, L_j Lagrange's polynomials through them, k_j = k(ω_j). As a
 //! function of ω, e^(kζ - iωτ) is a polynomial of degree 15 as long as ζ and τ are small enough; so the sums over components are taken
-//! once for a cell and a span. A slot is a part of a span that is short enough for a polynomial of degree 5 in time; its coefficients are
+//! once for a cell and a span, or, where components are many, over those that stand for them in a `region`. A slot is a part of a span that is short enough for a polynomial of degree 5 in time; its coefficients are
 //! sums over the sixteen S_j, and a point of the line costs a polynomial of 8 × 6 terms and its rate, however many components there are.
 //!
 //! Velocities of a plane flow are analytic: u + iw = Σ B e^(kζ) + Σ B′* e^(-kζ), B′ what the bed sends back. Sizes of cells and slots are such
@@ -22,6 +22,7 @@ use crate::algebra::lanes::Lanes;
 use crate::algebra::real::{MOST_LANES, Real, padded};
 use crate::scene::types::Stretching;
 use crate::sea::layer::{Layer, MOTION, Member, POWERS, STAND, SWELL, TERMS, Water};
+use crate::sea::region::{NODES, Region};
 use crate::sea::shelf::{RECENT, Shelf};
 use crate::sea::stretching::{Level, SHALLOWEST};
 use pulp::{Arch, Simd, WithSimd};
@@ -30,6 +31,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Cells near the surface must have at least this share of the significant wave height, or a line would leave them too often.
 const SMALLEST: f64 = 0.05;
+/// Places on a shelf at first: of what is kept for a region, and for a cell.
+const FEW: usize = 16;
+const MANY: usize = 256;
 /// Fewer components are summed one by one.
 const LEAST: usize = 32;
 
@@ -54,6 +58,8 @@ struct Plan {
     sin: f64,
     /// k/2π, ω/2π and φ/2π.
     turns: [Vec<f64>; 3],
+    /// Where there are many components: what stands for them in a region.
+    region: Option<Region>,
     /// The layer of elevations, and those of velocities from the surface down.
     layers: Vec<Layer>,
     /// Heights of the upper edges of the latter [m].
@@ -68,6 +74,8 @@ struct Memory {
     time: f64,
     /// This time in the slots of every layer.
     now: Vec<Now>,
+    /// Real and imaginary R_q.
+    regions: Shelf<[[f64; NODES]; 2]>,
     /// Real and imaginary S_j, of the waves and of what the bed sends back.
     sums: Shelf<[[f64; STAND]; 4]>,
     motions: Shelf<[f64; MOTION]>,
@@ -88,10 +96,12 @@ impl Near {
             row.iter_mut().zip(members).for_each(|(turns, member)| *turns = of(member) / TAU);
             row
         };
-        let mut layers = vec![Layer::of_elevations(members, &water)];
+        let region = Region::new(members, &water);
+        let nodes = region.as_ref().map(|region| &region.nodes[..]);
+        let mut layers = vec![Layer::of_elevations(members, nodes, &water)];
         let mut tops = Vec::new();
         let mut top = 0.0;
-        while let Some(layer) = Layer::of_velocities(members, &water, top).filter(|_| top > -water.depth) {
+        while let Some(layer) = Layer::of_velocities(members, nodes, &water, top).filter(|_| top > -water.depth) {
             if layer.half < SMALLEST * water.height {
                 return None;
             }
@@ -101,7 +111,7 @@ impl Near {
         }
         let (sin, cos) = water.direction.sin_cos();
         let turns = [row(|m| m.number), row(|m| m.omega), row(|m| m.phase)];
-        let plan = Arc::new(Plan { water, cos, sin, turns, layers, tops, processor: Arch::new() });
+        let plan = Arc::new(Plan { water, cos, sin, turns, region, layers, tops, processor: Arch::new() });
         let memory = Mutex::new(Memory::new(&plan));
         (plan.layers.len() > 1).then_some(Near { plan, memory })
     }
@@ -117,6 +127,39 @@ impl Near {
     pub fn sums(&self, count: usize, time: f64, easing: f64, places: &[[f64; MOST_LANES]; 3]) -> [[f64; MOST_LANES]; 6] {
         let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         self.plan.processor.dispatch(Sums { plan: &self.plan, memory: &mut memory, count, time, easing, places })
+    }
+
+    /// The layers of cells: of elevations, and of velocities from the surface down.
+    pub fn layers(&self) -> &[Layer] {
+        &self.plan.layers
+    }
+
+    /// cos b and sin b of the direction b of travel.
+    pub fn direction(&self) -> [f64; 2] {
+        [self.plan.cos, self.plan.sin]
+    }
+
+    /// Which of the layers a height is in [m]; none below the last.
+    pub fn layer_at(&self, z: f64) -> Option<usize> {
+        let layer = self.plan.layer_at(z);
+        let of = &self.plan.layers[layer];
+        (z - of.middle >= -of.half).then_some(layer)
+    }
+
+    /// Writes the polynomial of the elevation in a cell, a column of its layer, and the slot of a time [s] into one lane of rows.
+    #[inline(never)]
+    pub fn put_swell(&self, time: f64, column: i64, rows: &mut [[f64; MOST_LANES]; SWELL], lane: usize) {
+        let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = self.plan.processor.dispatch(Swell { plan: &self.plan, memory: &mut memory, time, column });
+        rows.iter_mut().zip(&memory.swells.things[at]).for_each(|(row, number)| row[lane] = *number);
+    }
+
+    /// Writes the polynomial of the velocity in a cell, a column of a layer, and the slot of a time [s] into one lane of rows.
+    #[inline(never)]
+    pub fn put_motion(&self, time: f64, layer: usize, column: i64, rows: &mut [[f64; MOST_LANES]; MOTION], lane: usize) {
+        let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = self.plan.processor.dispatch(Velocity { plan: &self.plan, memory: &mut memory, time, layer, column });
+        rows.iter_mut().zip(&memory.motions.things[at]).for_each(|(row, number)| row[lane] = *number);
     }
 
     /// Adds the sums of velocities and accelerations at levels that are known already, below places in rows x and y [m].
@@ -136,18 +179,26 @@ impl Plan {
     fn along(&self, x: f64, y: f64) -> f64 {
         x * self.cos + y * self.sin
     }
+
+    /// The last layer whose upper edge is not below z; the first is that of elevations.
+    #[inline(always)]
+    fn layer_at(&self, z: f64) -> usize {
+        self.tops.partition_point(|top| *top >= z).max(1)
+    }
 }
 
 /// A time within a slot of a layer.
 #[derive(Debug, Clone, Copy)]
-struct Now {
-    slot: i64,
-    /// Time from the middle of the slot, by half a slot.
-    share: f64,
+pub struct Now {
+    /// Number of the slot.
+    pub slot: i64,
+    /// Time from the middle of the slot, by half a slot, from -1 to 1.
+    pub share: f64,
 }
 
 impl Now {
-    fn new(layer: &Layer, time: f64) -> Now {
+    /// A time [s] in the slots of a layer.
+    pub fn new(layer: &Layer, time: f64) -> Now {
         let slot = (time / layer.slot).floor();
         Now { slot: slot as i64, share: (time - (slot + 0.5) * layer.slot) * (2.0 / layer.slot) }
     }
@@ -166,10 +217,15 @@ struct Within {
 impl Within {
     #[inline(always)]
     fn new(plan: &Plan, layer: usize, along: f64) -> Within {
-        let of = &plan.layers[layer];
-        let column = (along * of.per_width).round_ties_even();
-        let middle = column * (2.0 * of.half);
-        Within { layer, cell: ((column as i64) << 16) + layer as i64, middle, off: along - middle }
+        let within = Within::column(plan, layer, (along * plan.layers[layer].per_width).round_ties_even());
+        Within { off: along - within.middle, ..within }
+    }
+
+    /// The middle of a cell.
+    #[inline(always)]
+    fn column(plan: &Plan, layer: usize, column: f64) -> Within {
+        let middle = column * (2.0 * plan.layers[layer].half);
+        Within { layer, cell: ((column as i64) << 16) + layer as i64, middle, off: 0.0 }
     }
 }
 
@@ -180,9 +236,10 @@ impl Memory {
             moment: RECENT,
             time: f64::NAN,
             now: vec![Now { slot: 0, share: 0.0 }; plan.layers.len()],
-            sums: Shelf::new([[0.0; STAND]; 4]),
-            motions: Shelf::new([0.0; MOTION]),
-            swells: Shelf::new([0.0; SWELL]),
+            regions: Shelf::new([[0.0; NODES]; 2], FEW),
+            sums: Shelf::new([[0.0; STAND]; 4], MANY),
+            motions: Shelf::new([0.0; MOTION], MANY),
+            swells: Shelf::new([0.0; SWELL], MANY),
             angles: [vec![0.0; room], vec![0.0; room]],
         }
     }
@@ -203,9 +260,47 @@ impl Memory {
         let (at, missing) = self.sums.place((within.cell, span), self.moment);
         if missing {
             let midst = (span as f64 + 0.5) * of.slots as f64 * of.slot;
-            self.sums.things[at] = of.sums(cpu, &plan.turns, &mut self.angles, within.middle, midst);
+            self.sums.things[at] = match &plan.region {
+                None => of.sums(cpu, &plan.turns, None, &mut self.angles, [within.middle, midst]),
+                Some(region) => {
+                    let key = region.at(within.middle, midst);
+                    let [along, time] = region.middle(key);
+                    let (known, missing) = self.regions.place(key, self.moment);
+                    if missing {
+                        self.regions.things[known] = region.sums(cpu, &plan.turns, &mut self.angles, [along, time]);
+                    }
+                    let [re, im] = &self.regions.things[known];
+                    of.sums(cpu, &region.turns, Some([re, im]), &mut self.angles, [within.middle - along, midst - time])
+                }
+            };
         }
         (&self.sums.things[at], slot as usize)
+    }
+
+    /// Where the polynomial of the elevation in a cell and a slot is kept.
+    #[inline(always)]
+    fn swell<V: Simd>(&mut self, cpu: V, plan: &Plan, within: &Within, slot: i64) -> usize {
+        let (at, missing) = self.swells.place((within.cell, slot), self.moment);
+        if missing {
+            let mut swell = [0.0; SWELL];
+            let (sums, slot) = self.sums(cpu, plan, within, slot);
+            plan.layers[0].swell(cpu, sums, slot, &mut swell);
+            self.swells.things[at] = swell;
+        }
+        at
+    }
+
+    /// Where the polynomial of the velocity in a cell and a slot is kept.
+    #[inline(always)]
+    fn velocity<V: Simd>(&mut self, cpu: V, plan: &Plan, within: &Within, slot: i64) -> usize {
+        let (at, missing) = self.motions.place((within.cell, slot), self.moment);
+        if missing {
+            let mut motion = [0.0; MOTION];
+            let (sums, slot) = self.sums(cpu, plan, within, slot);
+            plan.layers[within.layer].motion(cpu, sums, slot, &mut motion);
+            self.motions.things[at] = motion;
+        }
+        at
     }
 
     /// Σ a cos θ [m].
@@ -213,13 +308,7 @@ impl Memory {
     fn elevation<V: Simd>(&mut self, cpu: V, plan: &Plan, along: f64, time: f64) -> f64 {
         self.tick(plan, time);
         let (within, now) = (Within::new(plan, 0, along), self.now[0]);
-        let (at, missing) = self.swells.place((within.cell, now.slot), self.moment);
-        if missing {
-            let mut swell = [0.0; SWELL];
-            let (sums, slot) = self.sums(cpu, plan, &within, now.slot);
-            plan.layers[0].swell(cpu, sums, slot, &mut swell);
-            self.swells.things[at] = swell;
-        }
+        let at = self.swell(cpu, plan, &within, now.slot);
         let (swell, mut terms) = (&self.swells.things[at], [0.0; TERMS]);
         for lane in (0..TERMS).step_by(V::F64_LANES) {
             let share = Lanes::<V>::splat(cpu, now.share);
@@ -242,14 +331,8 @@ impl Memory {
     fn series<V: Simd>(&mut self, cpu: V, plan: &Plan, layer: usize, along: f64, time: f64) -> ([[f64; 2 * TERMS]; 2], f64) {
         self.tick(plan, time);
         let (within, now) = (Within::new(plan, layer, along), self.now[layer]);
-        let (at, missing) = self.motions.place((within.cell, now.slot), self.moment);
         let of = &plan.layers[layer];
-        if missing {
-            let mut motion = [0.0; MOTION];
-            let (sums, slot) = self.sums(cpu, plan, &within, now.slot);
-            of.motion(cpu, sums, slot, &mut motion);
-            self.motions.things[at] = motion;
-        }
+        let at = self.velocity(cpu, plan, &within, now.slot);
         let (motion, mut series) = (&self.motions.things[at], [[0.0; 2 * TERMS]; 2]);
         let [values, rates] = &mut series;
         for lane in (0..2 * TERMS).step_by(V::F64_LANES) {
@@ -291,8 +374,7 @@ impl Memory {
     /// u, w, ∂u/∂t and ∂w/∂t at z′ [m].
     #[inline(always)]
     fn motion<V: Simd>(&mut self, cpu: V, plan: &Plan, along: f64, z: f64, time: f64) -> [f64; 4] {
-        // The last layer whose upper edge is not below z; the first is that of elevations.
-        let layer = plan.tops.partition_point(|top| *top >= z).max(1);
+        let layer = plan.layer_at(z);
         let of = &plan.layers[layer];
         let up = z - of.middle;
         if up < -of.half {
@@ -397,5 +479,44 @@ impl WithSimd for Elevation<'_> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, cpu: V) -> f64 {
         self.memory.elevation(cpu, self.plan, self.along, self.time)
+    }
+}
+
+/// `Near::put_swell` in the instructions of the processor.
+struct Swell<'a> {
+    plan: &'a Plan,
+    memory: &'a mut Memory,
+    time: f64,
+    column: i64,
+}
+
+impl WithSimd for Swell<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> usize {
+        let Swell { plan, memory, time, column } = self;
+        memory.tick(plan, time);
+        memory.swell(cpu, plan, &Within::column(plan, 0, column as f64), memory.now[0].slot)
+    }
+}
+
+/// `Near::put_motion` in the instructions of the processor.
+struct Velocity<'a> {
+    plan: &'a Plan,
+    memory: &'a mut Memory,
+    time: f64,
+    layer: usize,
+    column: i64,
+}
+
+impl WithSimd for Velocity<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, cpu: V) -> usize {
+        let Velocity { plan, memory, time, layer, column } = self;
+        memory.tick(plan, time);
+        memory.velocity(cpu, plan, &Within::column(plan, layer, column as f64), memory.now[layer].slot)
     }
 }

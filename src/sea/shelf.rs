@@ -1,7 +1,7 @@
 //! Things kept by a key for as long as there is room: whichever was not used for longest makes room.
 
-/// Places at first, and at most.
-const ROOM: [usize; 2] = [256, 16_384];
+/// Places at most.
+const ROOM: usize = 16_384;
 /// Places at which a thing may be kept.
 const PROBES: usize = 4;
 /// Things asked for within this many moments do not make room; the memory grows instead.
@@ -20,9 +20,9 @@ pub struct Shelf<T> {
 }
 
 impl<T: Clone> Shelf<T> {
-    /// A shelf of empty things.
-    pub fn new(empty: T) -> Shelf<T> {
-        Shelf { keys: vec![(i64::MAX, i64::MAX); ROOM[0]], used: vec![0; ROOM[0]], things: vec![empty; ROOM[0]] }
+    /// A shelf of empty things that has a number of places at first, a power of two.
+    pub fn new(empty: T, room: usize) -> Shelf<T> {
+        Shelf { keys: vec![(i64::MAX, i64::MAX); room], used: vec![0; room], things: vec![empty; room] }
     }
 
     /// Where a thing is kept, and whether it still has to be put there.
@@ -43,7 +43,7 @@ impl<T: Clone> Shelf<T> {
                     oldest = at;
                 }
             }
-            if self.used[oldest] + RECENT > moment && self.keys.len() < ROOM[1] {
+            if self.used[oldest] + RECENT > moment && self.keys.len() < ROOM {
                 let (room, empty) = (2 * self.keys.len(), self.things[0].clone());
                 (self.keys, self.used, self.things) = (vec![(i64::MAX, i64::MAX); room], vec![0; room], vec![empty; room]);
                 continue;

@@ -247,8 +247,28 @@ impl Waves {
         self.gravity
     }
 
+    /// The directions of travel of which components are summed by cells.
+    pub fn directions(&self) -> &[Near] {
+        &self.near
+    }
+
+    /// How many components are summed one by one.
+    pub fn singles(&self) -> usize {
+        self.count
+    }
+
+    /// How motions are carried to the surface.
+    pub fn stretching(&self) -> Stretching {
+        self.stretching
+    }
+
+    /// d [m].
+    pub fn depth(&self) -> f64 {
+        self.depth
+    }
+
     /// S and dS/dt [1/s].
-    fn easing(&self, clock: &Clock) -> (f64, f64) {
+    pub fn easing(&self, clock: &Clock) -> (f64, f64) {
         let elapsed = clock.now - clock.start;
         if elapsed <= 0.0 {
             (0.0, 0.0)
@@ -286,10 +306,7 @@ impl Waves {
     #[inline(always)]
     pub fn flow<F: Real>(&self, cpu: F::Cpu, clock: &Clock, place: &Triple<F>) -> Option<Flow<F>> {
         let waves = self.flow_of_waves(cpu, clock, place);
-        if self.stream.is_none() {
-            return waves;
-        }
-        let [vx, vy, vz, ax, ay, az] = &self.streams_at(F::LANES, clock, place.z.lanes());
+        let Some([vx, vy, vz, ax, ay, az]) = &self.stream_at(F::LANES, clock, place.z.lanes()) else { return waves };
         let (velocity, acceleration) = (Triple::load(cpu, [vx, vy, vz], 0), Triple::load(cpu, [ax, ay, az], 0));
         Some(match waves {
             Some(flow) => Flow { velocity: velocity + flow.velocity, acceleration: acceleration + flow.acceleration },
@@ -310,8 +327,8 @@ impl Waves {
                 }
             }
         }
-        if self.stream.is_some() {
-            for (row, stream) in rows.iter_mut().zip(self.streams_at(count, clock, places[2])) {
+        if let Some(stream) = self.stream_at(count, clock, places[2]) {
+            for (row, stream) in rows.iter_mut().zip(stream) {
                 row.iter_mut().zip(stream).for_each(|(sum, number)| *sum += number);
             }
         }
@@ -323,19 +340,10 @@ impl Waves {
         if self.stream.is_some() { f64::NEG_INFINITY } else { self.floor() }
     }
 
-    /// The current that changes in time at `count` heights.
-    #[inline(never)]
-    fn streams_at(&self, count: usize, clock: &Clock, heights: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 6] {
-        let mut rows = [[0.0; MOST_LANES]; 6];
-        // At rest the current is that of the start, as if it had always been.
-        let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
-        for (lane, z) in heights.into_iter().enumerate().take(count) {
-            let Some(stream) = &self.stream else { break };
-            let (v, a): (Triple<f64>, Triple<f64>) = stream.flow((), clock.now, z);
-            let a = a * moving;
-            rows.iter_mut().zip([v.x, v.y, v.z, a.x, a.y, a.z]).for_each(|(row, number)| row[lane] = number);
-        }
-        rows
+    /// Velocities [m/s] and accelerations [m/s²] of the current that changes in time at `count` heights [m]; none without such a current.
+    #[inline]
+    pub fn stream_at(&self, count: usize, clock: &Clock, heights: [f64; MOST_LANES]) -> Option<[[f64; MOST_LANES]; 6]> {
+        Some(streams_at(self.stream.as_ref()?, count, clock, heights))
     }
 
     #[inline(always)]
@@ -391,7 +399,7 @@ impl Waves {
     /// Sums of the velocities and accelerations of the components that are summed one by one, before they are eased in. `PLACES`: the lanes hold
     /// several places, else several components. `elevation`: that of all components, where it is known.
     #[inline(always)]
-    fn sums<F: Real, const PLACES: bool>(
+    pub fn sums<F: Real, const PLACES: bool>(
         &self,
         cpu: F::Cpu,
         time: f64,
@@ -400,7 +408,13 @@ impl Waves {
         elevation: Option<F>,
     ) -> ([F; 3], [F; 3]) {
         let zero = F::splat(cpu, 0.0);
-        let elevation = elevation.unwrap_or_else(|| self.elevations::<F, PLACES>(cpu, time, place) * easing);
+        // A wave that is alone turns by one angle.
+        let alone = if PLACES && self.count == 1 { Some(self.angle::<F, PLACES>(cpu, time, place, 0)) } else { None };
+        let elevation = match (elevation, &alone) {
+            (Some(elevation), _) => elevation,
+            (None, Some((cos, _))) => self.get::<F, PLACES>(cpu, Row::Amplitude, 0) * *cos * easing,
+            (None, None) => self.elevations::<F, PLACES>(cpu, time, place) * easing,
+        };
         let level = if self.whole {
             let z = place.z.min(elevation).max(F::splat(cpu, -self.depth));
             Level { z, above: zero, share: zero }
@@ -411,7 +425,10 @@ impl Waves {
         let carried = above.any_positive();
         let [mut vx, mut vy, mut vz, mut ax, mut ay, mut az] = [zero; 6];
         for n in (0..self.reaching(place.z.highest())).step_by(if PLACES { 1 } else { F::LANES }) {
-            let (cos, sin) = self.angle::<F, PLACES>(cpu, time, place, n);
+            let (cos, sin) = match alone {
+                Some(angle) => angle,
+                None => self.angle::<F, PLACES>(cpu, time, place, n),
+            };
             let down = decay(cpu, self.get::<F, PLACES>(cpu, Row::Number, n) * z);
             let echo = self.get::<F, PLACES>(cpu, Row::Echo, n);
             let back = if echo.any_positive() { echo * down.reciprocal() } else { zero };
@@ -431,9 +448,9 @@ impl Waves {
         if self.stretching == Stretching::None { (v.map(|v| v * share), a.map(|a| a * share)) } else { (v, a) }
     }
 
-    /// Σ a cos θ.
+    /// Σ a cos θ of the components that are summed one by one [m].
     #[inline(always)]
-    fn elevations<F: Real, const PLACES: bool>(&self, cpu: F::Cpu, time: f64, place: &Triple<F>) -> F {
+    pub fn elevations<F: Real, const PLACES: bool>(&self, cpu: F::Cpu, time: f64, place: &Triple<F>) -> F {
         let mut sum = F::splat(cpu, 0.0);
         for n in (0..self.count).step_by(if PLACES { 1 } else { F::LANES }) {
             let (cos, _) = self.angle::<F, PLACES>(cpu, time, place, n);
@@ -464,6 +481,19 @@ impl Waves {
         }
         self.rows[Row::Number as usize][..self.count].partition_point(|k| k * below < -FAINT.ln())
     }
+}
+
+#[inline(never)]
+fn streams_at(stream: &Stream, count: usize, clock: &Clock, heights: [f64; MOST_LANES]) -> [[f64; MOST_LANES]; 6] {
+    let mut rows = [[0.0; MOST_LANES]; 6];
+    // At rest the current is that of the start, as if it had always been.
+    let moving = if clock.now > clock.start { 1.0 } else { 0.0 };
+    for (lane, z) in heights.into_iter().enumerate().take(count) {
+        let (v, a): (Triple<f64>, Triple<f64>) = stream.flow((), clock.now, z);
+        let a = a * moving;
+        rows.iter_mut().zip([v.x, v.y, v.z, a.x, a.y, a.z]).for_each(|(row, number)| row[lane] = number);
+    }
+    rows
 }
 
 /// Components with their wave numbers in rows, padded.
