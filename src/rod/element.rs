@@ -249,6 +249,18 @@ impl<'a, W> Source<'a, W> {
         }
     }
 
+    /// 1 where an element from `e` on is all wet, else 0; `waterline`: the height below which it is in any waves.
+    #[inline(always)]
+    pub fn wet<F: Real>(&self, cpu: F::Cpu, u: &Ends<F>, waterline: F, e: usize) -> F
+    where
+        W: Water,
+    {
+        match self.flows {
+            Some(flows) if W::WAVES => flows.wet(cpu, e),
+            _ => u.wet(waterline),
+        }
+    }
+
     /// The motion of the water past point `g` of the elements from `e` on.
     #[inline(always)]
     pub fn past<F: Real>(&self, cpu: F::Cpu, point: &PointMotion<F>, g: usize, e: usize) -> Past<F>
@@ -284,7 +296,7 @@ fn batch_forces<F: Real, S: Stretch, W: Water, B: Bending>(cpu: F::Cpu, source: 
     let u = Ends::load(cpu, &source.u, e, length);
     let v = Ends::load(cpu, &source.v, e, length);
     let a = Ends::load(cpu, &source.a, e, length);
-    let wet = u.wet(table.get(Property::Waterline));
+    let wet = source.wet(cpu, &u, table.get(Property::Waterline), e);
     let weight = table.get(Property::WeightInAir) - table.get(Property::Buoyancy) * wet;
     let mut sum = [Triple::zero(cpu); 4];
     for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {

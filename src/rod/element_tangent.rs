@@ -220,7 +220,7 @@ fn batch_tangent<V: Simd, S: Stretch, W: Water, B: Bending, D: Dimension>(
     let u = Ends::load(cpu, &source.u, e, length);
     let v = Ends::load(cpu, &source.v, e, length);
     let a = Ends::load(cpu, &source.a, e, length);
-    let wet = u.wet(table.get(Property::Waterline));
+    let wet = source.wet(cpu, &u, table.get(Property::Waterline), e);
     let by = By { slope: weights.u, rate: weights.v };
     let mut sum = ElementTangent::zero(cpu);
     for (g, (gauss, shape)) in GAUSS3.iter().zip(&SHAPES3).enumerate() {

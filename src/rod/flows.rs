@@ -6,11 +6,13 @@
 
 use crate::algebra::lanes::Lanes;
 use crate::algebra::real::{MOST_LANES, Real, padded};
-use crate::algebra::shape::SHAPES3;
+use crate::algebra::shape::{SHAPES3, Shape};
 use crate::algebra::triple::Triple;
 use crate::rod::ends::Ends;
 use crate::rod::motion::{Asking, Motion};
+use crate::rod::surface::TAKEN_AT;
 use crate::sea::beside::{Beside, Place};
+use crate::sea::clock::Clock;
 use crate::sea::waves::{Flow, Waves};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -21,9 +23,13 @@ const NEAR: f64 = 1.0e-3;
 #[derive(Debug, Clone)]
 pub struct Flows {
     elements: usize,
-    /// Lengths of elements [m], and heights below which they are certainly wet [m].
+    /// Lengths of elements [m], and heights below which they are wet in whatever waves there may be [m].
     lengths: Vec<f64>,
     waterlines: Vec<f64>,
+    /// 1 where an element is all wet in the waves as they are, else 0.
+    wets: Vec<f64>,
+    /// Where on an element its height above the waves is taken.
+    taken: [Shape; 4],
     /// Numbers between the first points of all elements and the second.
     stride: usize,
     /// Places [m]; infinite where nothing was asked.
@@ -44,9 +50,11 @@ impl Flows {
         // What is behind the last is never wet.
         waterlines.resize(stride, f64::NEG_INFINITY);
         let row = |_| vec![0.0; SHAPES3.len() * stride];
+        let wets = vec![0.0; stride];
+        let taken = TAKEN_AT.map(Shape::at);
         let (asked, rows) = (std::array::from_fn(row), std::array::from_fn(row));
-        let beside = Beside::new(waves, SHAPES3.len() * stride, 0);
-        Flows { elements, lengths, waterlines, stride, asked, rows, beside, processor: Arch::new() }
+        let beside = Beside::new(waves, SHAPES3.len() * stride, TAKEN_AT.len() * stride);
+        Flows { elements, lengths, waterlines, wets, taken, stride, asked, rows, beside, processor: Arch::new() }
     }
 
     /// Whether it is cheap to ask for all points.
@@ -57,6 +65,17 @@ impl Flows {
     /// Asks for what is not known yet in the stage of a motion, or, `anew`, for all.
     pub fn update(&mut self, waves: &Waves, at: &Motion, anew: bool) {
         self.processor.dispatch(Update { flows: self, waves, at, first: anew || at.asking != Asking::Again });
+    }
+
+    /// 1 for each of the elements from `e` on that is all wet, else 0.
+    #[inline(always)]
+    pub fn wet<F: Real>(&self, cpu: F::Cpu, e: usize) -> F {
+        F::load(cpu, &self.wets, e)
+    }
+
+    /// Whether element `e` may not be all wet.
+    pub fn is_dry(&self, e: usize) -> bool {
+        self.wets[e] == 0.0
     }
 
     /// The motions at point `g` of the elements from `e` on.
@@ -97,6 +116,32 @@ impl Questions {
     }
 }
 
+impl Flows {
+    /// 1 where an element from `e` on is below the waves as they are, by the cubic through its height above them, else 0.
+    #[inline(always)]
+    fn wet_in<V: Simd>(&mut self, cpu: V, waves: &Waves, clock: Clock, e: usize, u: &Ends<Lanes<V>>) -> Lanes<V> {
+        let waterline = Lanes::<V>::load(cpu, &self.waterlines, e);
+        let wet = u.wet(waterline);
+        let asked = (-wet + 1.0) * Lanes::load(cpu, &self.lengths, e).positive();
+        let Some(beside) = self.beside.as_mut().filter(|_| asked.any_positive()) else { return wet };
+        let mut h = [waterline; 4];
+        let mut k = 0;
+        while k < h.len() {
+            let place = Place { clock, at: u.combine(&self.taken[k].value) };
+            let first = (SHAPES3.len() + k) * self.stride + e;
+            h[k] = place.at.z - beside.elevation(cpu, waves, first, &place, asked);
+            k += 1;
+        }
+        let [a, b, c, d] = h;
+        // Between the ends of an element the cubic lies below these.
+        let near = (b * 18.0 - a * 5.0 - c * 9.0 + d * 2.0) * (1.0 / 6.0);
+        let far = (c * 18.0 - d * 5.0 - b * 9.0 + a * 2.0) * (1.0 / 6.0);
+        // Half a diameter below them.
+        let under = waterline + waves.crest();
+        wet.max((under - a.max(d).max(near).max(far)).step() * asked)
+    }
+}
+
 /// `Flows::update` in the instructions of the processor.
 struct Update<'a> {
     flows: &'a mut Flows,
@@ -117,8 +162,9 @@ impl WithSimd for Update<'_> {
         let one = Lanes::<V>::splat(cpu, 1.0);
         for e in (0..flows.elements).step_by(V::F64_LANES) {
             let u = Ends::load(cpu, &rows, e, Lanes::<V>::load(cpu, &flows.lengths, e));
-            // Elements that may not be all wet have points of their own.
-            let wet = u.wet(Lanes::load(cpu, &flows.waterlines, e));
+            // Elements that are not all wet have points of their own.
+            let wet = flows.wet_in(cpu, waves, at.clock, e, &u);
+            wet.store(&mut flows.wets, e);
             for (g, shape) in SHAPES3.iter().enumerate() {
                 let at_point = u.combine(&shape.value);
                 let place = at_point.components(cpu);

@@ -263,12 +263,11 @@ impl<S: Stretch, W: Water, B: Bending, D: Dimension> System for Rod<S, W, B, D> 
         // A factor that is made again from a state must have the same bits: what a stage keeps is not looked at.
         let flows = self.flows_of(at, true);
         element_tangent::tangent::<S, W, B, D>(&self.table, &self.water, flows.as_deref(), at, weights, geometric, runs, matrix);
-        drop(flows);
         for e in runs.iter().flat_map(|(first, end)| *first..end - 1) {
             if let Some(ground) = &self.ground {
                 ground.tangent(&self.table, at, e, weights, matrix);
             }
-            if let Some(surface) = &self.surface {
+            if let Some(surface) = self.surface.as_ref().filter(|_| flows.as_ref().is_none_or(|flows| flows.is_dry(e))) {
                 surface.tangent(&self.table, &self.water, self.kept().as_deref_mut(), at, e, weights, matrix);
             }
         }

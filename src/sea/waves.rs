@@ -443,9 +443,13 @@ impl Waves {
             (vx, vy, vz) = (v.mul_add(cos_b, vx), v.mul_add(sin_b, vy), (upright * sin).mul_add(speed, vz));
             (ax, ay, az) = (a.mul_add(cos_b, ax), a.mul_add(sin_b, ay), (upright * cos).mul_add(-rate, az));
         }
-        let whole = |sum: F| if PLACES { sum } else { F::splat(cpu, sum.total()) };
-        let (v, a) = ([vx, vy, vz].map(whole), [ax, ay, az].map(whole));
-        if self.stretching == Stretching::None { (v.map(|v| v * share), a.map(|a| a * share)) } else { (v, a) }
+        if !PLACES {
+            [vx, vy, vz, ax, ay, az] = [vx, vy, vz, ax, ay, az].map(|sum| F::splat(cpu, sum.total()));
+        }
+        if self.stretching == Stretching::None {
+            (vx, vy, vz, ax, ay, az) = (vx * share, vy * share, vz * share, ax * share, ay * share, az * share);
+        }
+        ([vx, vy, vz], [ax, ay, az])
     }
 
     /// Σ a cos θ of the components that are summed one by one [m].
