@@ -575,7 +575,7 @@ fn all_trials() -> Vec<Trial> {
 }
 
 /// Plays the scenes named in `STRESS_SCENES`, one after the other, and prints what each took: names as in `scenes.csv`, after their class where that is
-/// needed: "random, in waves: scene 71; 300 m, EA 1e10 N".
+/// needed: "random, in waves: scene 71; 300 m, EA 1e10 N". `STRESS_SCHEME=esdirk3`: by another scheme than their own.
 #[test]
 #[ignore = "plays the scenes it is told"]
 fn chosen_scenes_move() {
@@ -592,7 +592,12 @@ fn chosen_scenes_move() {
                 && (trial.name == *name || class.is_none() && trial.name.contains(name))
         })
     };
-    let played: Vec<Played> = all_trials().iter().filter(|trial| is_wanted(trial)).map(play).collect();
+    let mut trials: Vec<Trial> = all_trials().into_iter().filter(is_wanted).collect();
+    if let Ok(scheme) = std::env::var("STRESS_SCHEME") {
+        let scheme: Scheme = serde_json::from_value(scheme.into()).expect("a scheme");
+        trials.iter_mut().for_each(|trial| trial.scene.solver.scheme = scheme);
+    }
+    let played: Vec<Played> = trials.iter().map(play).collect();
     println!("{}", rows(&played));
 }
 

@@ -113,6 +113,7 @@ impl Surface {
     }
 
     /// Adds the tangent of the force of the water on the wet share of a lifted element to the matrix.
+    #[allow(clippy::too_many_arguments)]
     pub fn tangent<W: Water>(
         &self,
         table: &Table,

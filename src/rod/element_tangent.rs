@@ -154,7 +154,9 @@ impl<F: Real> ElementTangent<F> {
     }
 }
 
-/// Adds the tangent of every element to the matrix. `geometric[3e + g]`, where given, is the tension of the geometric part.
+/// Adds the tangent of the elements between the nodes of each of `runs`, from its first to the one before its end, to the matrix.
+/// `geometric[3e + g]`, where given, is the tension of the geometric part.
+#[allow(clippy::too_many_arguments)]
 pub fn tangent<S: Stretch, W: Water, B: Bending, D: Dimension>(
     table: &Table,
     water: &W,
